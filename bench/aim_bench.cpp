@@ -1,4 +1,4 @@
-// The time that an aim takes, and its worth against plain cyclic coordinate descent. First a table: the same 2,000
+// Measures the time of an aim, and compares it with plain cyclic coordinate descent. First a table: the same 2,000
 // reachable directions for each chain, solved by aim() and by CCD from rest without a table, once without any clamp and
 // once with every step clamped. Then the benchmarks.
 #include <benchmark/benchmark.h>
@@ -26,7 +26,7 @@ double angle_between(const Vec3& a, const Vec3& b) {
   return det::atan2(std::sqrt(glm::dot(across, across)), glm::dot(a, b));
 }
 
-// One step of the baseline: Wang and Chen 1991, over directions.
+// One step of CCD: Wang and Chen 1991, over directions.
 void ccd_step(const Joint& joint, const Rigid& world, const Vec3& facing, const Vec3& wanted, double* q) {
   if (joint.kind == JointKind::ball) {
     const Vec3 turn = glm::conjugate(world.q) * to_rotation_vector(shortest_arc(facing, wanted));
@@ -130,7 +130,7 @@ void aim_solve(benchmark::State& state, const fixtures::AimSceneRow& row) {
   }
 }
 
-// A target that goes to and fro by half a degree per call.
+// A target that moves to and fro by half a degree per call.
 void aim_continue(benchmark::State& state, const fixtures::AimSceneRow& row) {
   const Prepared prepared(row);
   AimPose pose(prepared.scene.character);

@@ -1,6 +1,6 @@
-// A checked frame (joints placed, then joint_range, angular_velocity and self_collision) beside MuJoCo's mj_inverse,
-// which does as much for a frame of another kind of tool: kinematics, collisions, forces. Both see the same frames of
-// the motions that the fuzzer draws, MuJoCo with the same shapes in the same pairs.
+// Compares a checked frame (joints placed, then joint_range, angular_velocity and self_collision) with MuJoCo's
+// mj_inverse, which computes about as much for a frame: kinematics, collisions, forces. Both get the same frames of
+// motions that the fuzzer draws, and MuJoCo has the same shapes in the same pairs.
 #include <cstdio>
 
 #include "bench/side_by_side.h"
@@ -37,7 +37,7 @@ std::vector<Case> draw_cases(const char* character, const char* profile) {
   return cases;
 }
 
-// The state that MuJoCo asks for in a frame.
+// MuJoCo's state in a frame.
 struct State {
   std::vector<double> coords, velocity, acceleration;
 };
@@ -58,7 +58,7 @@ void differentiate(mjModel* model, double rate_hz, std::vector<State>& states) {
   }
 }
 
-// The frames of all cases, as all have the stock character.
+// The frames of all cases; all cases have the stock character.
 class MujocoFrames {
  public:
   explicit MujocoFrames(const std::vector<Case>& cases)
@@ -92,7 +92,7 @@ class MujocoFrames {
  private:
   Multibody body_;
   fixtures::MujocoModel theirs_;
-  std::vector<std::vector<State>> states_;  // of cases, by frame
+  std::vector<std::vector<State>> states_;  // by case, then frame
   long contacts_ = 0;
 };
 
@@ -119,7 +119,7 @@ class CheckedFrames {
   std::size_t findings_ = 0;
 };
 
-// Microseconds for a frame, of whole rounds over all cases.
+// Prints microseconds for a frame, over whole rounds of all cases.
 void compare(const char* character, const char* profile) {
   const std::vector<Case> cases = draw_cases(character, profile);
   constexpr std::string_view kChecks[] = {"joint_range", "angular_velocity", "self_collision"};
@@ -127,7 +127,7 @@ void compare(const char* character, const char* profile) {
   for (const Case& each : cases) frames += each.motion.frame_count;
   MujocoFrames theirs(cases);
   std::vector<double> peer_us;
-  std::vector<std::vector<double>> own_us(5), ratios(5);  // joints alone, with each of the checks, with all
+  std::vector<std::vector<double>> own_us(5), ratios(5);  // joints alone, with each of the checks, with all checks
   const double to_us = 1e6 / frames;
   CheckedFrames ours;
   for (int round = 0; round < kRounds; ++round) {

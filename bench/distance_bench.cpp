@@ -1,6 +1,6 @@
-// Signed distances of 171 pairs of 19 capsules, every pose another one, beside FCL (double) and Bullet (float) where
-// these are installed: all pairs at once, with each kind of instructions that the machine has, and one pair at a time.
-// Slices of ours and the peer's alternate in one process; printed are medians.
+// Compares signed distances of 171 pairs of 19 capsules, each time in another pose, with FCL (double) and Bullet
+// (float) if these are installed: all pairs at once, with each kind of instructions of the machine, and one pair at a
+// time. Slices of both alternate in one process; medians are printed.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -51,7 +51,7 @@ std::vector<Pose> random_poses() {
   return poses;
 }
 
-// The fields that vary from pose to pose, by capsule.
+// The fields that differ from pose to pose, by capsule.
 struct Place {
   Vec3 center_m, axis;
 };
@@ -62,7 +62,7 @@ std::vector<Place> spec_fields_of(const Pose& pose) {
   return places;
 }
 
-// All pairs of the same capsules, place after place.
+// All pairs of the same capsules, pose by pose.
 class AllPairs {
  public:
   AllPairs(Pose capsules, const RoundKernel& kernel) : capsules_(std::move(capsules)), kernel_(kernel) {
@@ -77,7 +77,7 @@ class AllPairs {
     round_distances(capsules_, pairs_, distances_m_, kernel_);
     double least = 1e9;
     for (std::size_t first = 0, count = kCapsules - 1; count > 0;
-         first += count--)  // rows, which need not wait for one another
+         first += count--)  // rows are independent of each other
       least = std::min(least, std::ranges::min(std::span(distances_m_).subspan(first, count)));
     return least;
   }
@@ -98,7 +98,7 @@ double least_of_pairs(const Pose& pose) {
 
 using Measure = std::function<double(int pose)>;
 
-// Microseconds for a pose; `sum` keeps the work from being left out.
+// Returns microseconds for a pose. `sum` keeps the compiler from removing the work.
 double slice(const Measure& measure, double& sum) {
   const double start = thread_time_s();
   for (int pose = 0; pose < kPoses; ++pose) sum += measure(pose);
@@ -177,7 +177,7 @@ BulletPose to_bullet(const Pose& pose) {
   return out;
 }
 
-// Bullet's own formula for two capsules hides in the algorithm that its dispatcher picks.
+// Bullet's formula for two capsules is hidden in the algorithm that its dispatcher chooses.
 class BulletDistance : public btManifoldResult {
  public:
   BulletDistance() {

@@ -1,6 +1,6 @@
-// Rigid-body dynamics beside MuJoCo's on the same character, in one process: alternating slices of a millisecond, and
-// the median of their ratios, because clocks of shared machines wander by 15 %. 256 states, so that no branch is
-// learnt.
+// Compares rigid-body dynamics with MuJoCo's on the same character, in one process: alternating slices of a
+// millisecond, and the median of their ratios, because the clocks of shared machines vary by 15 %. It uses 256 states,
+// so that no branch predictor learns one.
 #include <algorithm>
 #include <cstdio>
 #include <vector>
@@ -16,7 +16,7 @@ namespace {
 constexpr int kStates = 256;
 constexpr int kSlices = 301;
 
-// Seconds of one call, over a slice of calls.
+// Returns the seconds of one call, over a slice of calls.
 template <class Call>
 double slice(int calls, int& next, Call call) {
   const double begin = thread_time_s();
@@ -91,8 +91,8 @@ void compare_on(const char* name, const Character& character) {
       });
 }
 
-// The times of single ticks of one simulation: each is measured in many runs, its median is its time, and the quantiles
-// are those over the ticks. Frames' own work between ticks counts with the tick after it.
+// Measures single ticks of one simulation. Each tick is measured in many runs; its time is the median, and the
+// quantiles are over the ticks. Work between ticks counts for the tick after it.
 void print_quantiles(const char* name, const Stage& stage, const Motion& target) {
   constexpr std::size_t kRuns = 101;
   SimulationScratch scratch;
@@ -111,7 +111,7 @@ void print_quantiles(const char* name, const Stage& stage, const Motion& target)
     simulate(*stage.character, *stage.dynamics, stage.environment, scratch, motion);
   }
   std::vector<double> times;
-  for (std::size_t t = 1; t < of_tick.size(); ++t) {  // the first one has all that is computed once
+  for (std::size_t t = 1; t < of_tick.size(); ++t) {  // the first tick includes everything that is computed once
     std::ranges::sort(of_tick[t]);
     times.push_back(of_tick[t][kRuns / 2]);
   }
@@ -123,7 +123,7 @@ void print_quantiles(const char* name, const Stage& stage, const Motion& target)
               at(0.99), at(1.0));
 }
 
-// A whole tick of a squat with a load and a blow, beside mj_inverse on random states of the same figure.
+// Compares a whole tick of a squat with a load and a blow with mj_inverse on random states of the same figure.
 void compare_tick(Mode mode) {
   Spec spec = scene("human_dynamic");
   spec.dynamics.mode = mode, spec.dynamics.ticks_per_frame = 4;

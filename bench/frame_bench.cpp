@@ -1,5 +1,5 @@
-// The time that a frame takes: generated, and generated and checked. Each benchmark prints frames per second and the
-// hash of the motion that it made, so that a faster wrong answer is seen as wrong.
+// Measures the time of a frame: generated, and generated and checked. Each benchmark prints frames per second and the
+// hash of its motion, which shows if a faster version gives another result.
 #include <benchmark/benchmark.h>
 
 #include "tests/stage_evaluator.h"
@@ -40,7 +40,7 @@ void check_scene(benchmark::State& state, const char* name) {
   finish(state, frames, last.motion_hash);
 }
 
-// The work that the fuzzer does all night: many different motions, so that branch predictors do not learn one.
+// The typical work of the fuzzer: many different motions, so that branch predictors do not learn one.
 void check_drawn(benchmark::State& state, const char* character) {
   std::vector<Stage> stages;
   for (int i = 0; i < 256; ++i)

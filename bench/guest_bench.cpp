@@ -1,6 +1,6 @@
-// Measures the protocol of docs/reference/guests.md with a figure of 67 joints that this program itself serves: a
-// request of 120 frames, as frames arrive and as they are converted; the frames per second that one process of
-// `contort fuzz` checks; and the throughput of two processes over that of one. Medians are printed.
+// Measures the protocol of docs/reference/guests.md with a figure of 67 joints that this program serves itself: a
+// request of 120 frames, received and converted; the frames per second that one process of `contort fuzz` checks; and
+// the throughput of two processes divided by that of one. Medians are printed.
 //
 // contort_guest_bench CONTORT [CASES]
 #include <contort_guest.h>  // as a user of it has it: from adapters/cpp
@@ -23,10 +23,10 @@ namespace {
 
 constexpr int kJoints = 67;
 constexpr int kFrames = 120;
-constexpr int kRequests = 400;  // in a round
+constexpr int kRequests = 400;  // in one round
 constexpr int kRounds = 5;
 
-// A chain of balls, of which each sways by a few degrees.
+// A chain of balls, each of which sways by a few degrees.
 std::string manifest_of(const std::string& format) {
   std::string joints = R"({"name":"j0","position":[0,1,0]})";
   for (int j = 1; j < kJoints; ++j)
@@ -70,7 +70,7 @@ Cost cost_of(int whose, const Work& work) {
   return {steady_s() - begin_s, cpu_s(whose) - begin_cpu_s, 0.0};
 }
 
-// The median of each number by itself; the number of rounds is odd.
+// The median of each number separately; the number of rounds is odd.
 template <class Round>
 Cost median_cost(const Round& round) {
   std::vector<double> wall_s, cpu_s;
@@ -138,7 +138,7 @@ Cost fuzz_cost(const std::string& contort, const std::string& generator, int cas
   return cost;
 }
 
-// The start of the program and its first motions are subtracted as the costs of a quarter of the cases.
+// The time of program starts and first motions is removed by subtracting a run with a quarter of the cases.
 void measure_jobs(const std::string& contort, const std::string& generator, int cases) {
   Cost costs[2];
   for (int jobs = 1; jobs <= 2; ++jobs) {

@@ -1,6 +1,6 @@
-// The cost that the harness adds to generating and checking: CPU time of `contort fuzz` (drawing, worker processes,
-// journal, hashing, near misses) over that of the bare work on the same specs in one process. The profile fails
-// nowhere, so nothing is shrunk or stored. Slices alternate; printed are medians.
+// Measures the cost of the harness: CPU time of `contort fuzz` (drawing, worker processes, journal, hashing, near
+// misses) divided by that of generating and checking the same specs in one process. The profile has no failures, so
+// nothing is shrunk or stored. Slices alternate; medians are printed.
 //
 // contort_harness_bench CONTORT [CASES]
 #include <sys/resource.h>
@@ -26,7 +26,7 @@ double cpu_s(int whose) {
   return seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
-// The built-in profile tame, of which every case is drawn by itself: the bare work knows nothing of a search.
+// The built-in profile tame, with independent cases, because the bare work has no search.
 Profile even_tame() {
   Profile profile = load_profile("tame").value();
   profile.guided = 0.0, profile.uniform = 1.0;

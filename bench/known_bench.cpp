@@ -1,6 +1,6 @@
-// The time of one question to the rules that a game compiles in (docs/reference/conditions.md), with four comparisons
-// each, of which the last one does not hold. `night`: so many rules about three characters and ten actions, as a night
-// leaves them. `same_action`: all rules are about the character and the action of the request.
+// Measures the time of one question to the rules that a game compiles in (docs/reference/conditions.md). Each rule has
+// four comparisons, of which the last one does not hold. `night`: rules about three characters and ten actions, as a
+// night leaves them. `same_action`: all rules are about the character and the action of the request.
 #include <benchmark/benchmark.h>
 
 #include "corpus/condition.h"

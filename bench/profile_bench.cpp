@@ -1,5 +1,5 @@
-// The work of a fuzzer's worker on the cases that a profile draws, in one process: draw, build, generate and check. It is
-// what bench/profile.sh counts the instructions of.
+// Does the work of a fuzzer's worker on the cases that a profile draws, in one process: draw, build, generate and
+// check. bench/profile.sh counts its instructions.
 //
 // contort_profile_bench PROFILE CHARACTER CASES
 #include <cstdio>

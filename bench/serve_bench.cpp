@@ -1,5 +1,7 @@
-// The delay until a terminal sees what it asked for: eight of them play mech in dynamic mode at 30 frames a second, and
-// each asks for something now and then. Against a server that runs: contort_serve_bench PORT [SECONDS] [TERMINALS]
+// Measures the delay until a client sees the effect of its command: eight clients play mech in dynamic mode at 30
+// frames a second, and each sends a command from time to time. It needs a running server:
+//
+// contort_serve_bench PORT [SECONDS] [TERMINALS]
 #include <httplib.h>
 
 #include <algorithm>
@@ -23,17 +25,17 @@ double ms_between(Clock::time_point a, Clock::time_point b) { return std::chrono
 struct Terminal {
   std::string session;
   std::mutex mutex;
-  Clock::time_point asked{};       // of the latest command; none where it was answered
+  Clock::time_point asked{};       // time of the latest command; none if it was answered
   bool waits = false;
   std::vector<double> latencies_ms;
-  double worst_late_ms = -1e9;     // of a frame against the time at which it is shown
+  double worst_late_ms = -1e9;     // greatest delay of a frame after the time at which it is shown
   int frames = 0;
-  int late = 0;                    // by more than 100 ms
+  int late = 0;                    // frames that were late by more than 100 ms
 };
 
 constexpr double kRate_hz = 30.0;
 
-// A reader of the stream that does what a page does: it knows where the clock is, and which frames it has.
+// Reads the stream like a page: it has the clock and the frames that arrived.
 class Listener {
  public:
   explicit Listener(Terminal& terminal) : terminal_(terminal) {}
@@ -64,7 +66,8 @@ class Listener {
       terminal_.latencies_ms.push_back(ms_between(terminal_.asked, now));
       terminal_.waits = false;
     }
-    // Frames of the motion that runs on must be there before they are shown. After a command, those already shown come again.
+    // Frames of a running motion must arrive before they are shown. After a command, frames that were already shown
+    // come again.
     if (!is_answer && plays_ && data["take"] == take_)
       for (int f = from; f < from + count; ++f) {
         const double late = ms_between(shown_at_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(f / kRate_hz)), now);

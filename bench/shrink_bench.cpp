@@ -1,6 +1,6 @@
-// The cost of shrinking and how far it comes, on failures as a run meets them before anything guides it: human, mech,
-// and mech on reverse legs, at most two failures of a family for each seed and figure. One line for each failure, then
-// medians and shares; exit code 1 where a family is lost or shrinking again changes anything.
+// Measures the cost and the results of shrinking, on failures as a run finds them without guidance: human, mech, and
+// mech on reverse legs, at most two failures of a family for each seed and figure. Prints one line for each failure,
+// then medians and fractions. The exit code is 1 if a family is lost, or if shrinking again changes anything.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -50,7 +50,7 @@ Spec drawn(const Figure& figure, int seed, int index) {
 // The deepest failure of each family.
 std::vector<Case> failures_of(const Spec& spec, StageEvaluator& evaluator) {
   const Result<Stage> stage = build_stage(spec, stock_library());
-  if (!stage) return {};  // reverse legs do not take every parameter of human ones
+  if (!stage) return {};  // reverse legs do not accept all parameters of human ones
   const Evaluation evaluation = evaluator.run(*stage);
   std::map<Family, const Finding*> deepest_of;
   for (const Finding& finding : evaluation.findings) {
@@ -63,7 +63,7 @@ std::vector<Case> failures_of(const Spec& spec, StageEvaluator& evaluator) {
   return failures;
 }
 
-// One failure of each drawn case that fails, another one in each.
+// One failure for each drawn case that fails, each of another kind.
 std::vector<Case> drawn_failures(const Figure& figure, int seed, std::size_t wanted) {
   std::vector<Case> chosen;
   std::map<Family, int> of_family;

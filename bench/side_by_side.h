@@ -1,5 +1,5 @@
-// Times of ours beside a peer's, in one process: slices that alternate, and medians, because clocks of shared machines
-// wander by 15 %.
+// Compares our times with a peer's, in one process: alternating slices, and medians, because the clocks of shared
+// machines vary by 15 %.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Prints the table of docs/experiments/squat: each spec tracked alone and with dynamic control.
+// Prints the table of docs/experiments/squat: each spec with tracking and with dynamic control.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -13,8 +13,8 @@ namespace {
 struct Numbers {
   double lumbar_Nm = 0.0, hip_Nm = 0.0, knee_Nm = 0.0;  // greatest efforts
   double zmp_low_m = 1e9, zmp_high_m = -1e9;            // along the feet, from the ankles
-  int outside = 0;                                      // frames
-  double arms_deg = 0.0, lumbar_deg = 0.0;              // farthest forward of the target
+  int outside = 0;                                      // number of frames
+  double arms_deg = 0.0, lumbar_deg = 0.0;              // greatest distance forward of the target
 };
 
 double degrees_off(const Joint& joint, const double* now, const double* goal) {

@@ -1,5 +1,5 @@
-// The cost of a film strip, and where the time goes: one thread, one context; a strip has six tiles of 320 x 240, a
-// whole case eight and a .glb.
+// Measures the cost of a film strip and of its stages: one thread, one context. A strip has six tiles of 320 x 240; a
+// whole case has eight and a .glb.
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kWidth = 320, kHeight = 240, kTiles = 6;
 
-// A scene, and a finding on it as the fuzzer would make one.
+// A scene with a finding, as the fuzzer makes one.
 struct Subject {
   Stage stage = build_stage(scene("human_overlaps"), stock_library()).value();
   Motion motion = generate(stage);
@@ -79,7 +79,7 @@ void whole_case_and_clip(benchmark::State& state) {
   state.counters["cases/s"] = benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 
-// Its parts, which are the next ones too.
+// The parts of a whole case, like the next benchmarks.
 void generate_and_judge(benchmark::State& state) {
   const Subject subject;
   StageEvaluator evaluator;
@@ -126,7 +126,7 @@ void draw_and_read_one_tile(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(subject.tile());
 }
 
-// Oversampled pixels to those of the picture.
+// Converts oversampled pixels to those of the picture.
 void halve_one_tile(benchmark::State& state) {
   const std::vector<std::uint8_t> rgba(std::size_t{4} * 4 * kWidth * kHeight, 128);
   for (auto _ : state) benchmark::DoNotOptimize(halve_and_flip(rgba, 2 * kWidth, 2 * kHeight));

@@ -1,5 +1,5 @@
-// aim_error: what aims must point at its target. Judged in the frames in which the generator says that an aim is fully
-// in force (Motion::aims); where the socket is and faces follows from the pose alone.
+// aim_error: the socket that an aim points must face its target. It is judged in the frames in which the generator says
+// that an aim is fully in force (Motion::aims). The place and direction of the socket follow from the pose alone.
 #include <cmath>
 #include <limits>
 
@@ -10,7 +10,7 @@ namespace contort {
 
 namespace {
 
-// Between the socket's +Z and the way to the target.
+// The angle between the socket's +Z and the direction to the target.
 double error_rad(const Rigid& world_from_socket, const Vec3& target_m) {
   const Vec3 way = target_m - world_from_socket.p_m;
   const double length_m = std::sqrt(glm::dot(way, way));

@@ -1,6 +1,7 @@
-// angular_acceleration: how fast a joint's speed changes between two neighbouring steps. Files declare no limit for it,
-// so it follows from the greatest speed: no joint should take less than 20 ms from rest to there. A blow changes speeds
-// at once, and a step that is too fast has a finding of its own; both are passed over.
+// angular_acceleration: how fast a joint's speed changes between two neighbouring steps. Files declare no limit for it.
+// The limit follows from the greatest speed: no joint should reach it from rest in less than 20 ms. Two kinds of frames
+// are not judged: those after a blow, which changes speeds at once, and steps that are too fast, which have a finding
+// of their own.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -19,12 +20,12 @@ bool is_struck(const Motion& motion, int frame) {
                              [&](const ImpactMark& m) { return frame >= m.frame && frame <= m.frame + 2; });
 }
 
-// One over the time between the middles of the steps before and after a frame.
+// Returns 1 / (the time between the middles of the steps before and after a frame).
 double rate_around_hz(const Motion& motion, int frame) {
   return motion.times_s.empty() ? motion.rate_hz : 2.0 / (motion.time_s(frame + 1) - motion.time_s(frame - 1));
 }
 
-// rad/s^2 or m/s^2 between two steps, given as speeds; negative where a step is too fast, or no number.
+// The acceleration between two steps, given as speeds, in rad/s^2 or m/s^2; negative if a step is too fast or NaN.
 double change_of_speed(const Joint& joint, const Vec3& first, const Vec3& second, double rate_hz) {
   const double fastest = std::max(glm::dot(first, first), glm::dot(second, second));
   if (!(fastest <= joint.max_speed * joint.max_speed)) return -1.0;
@@ -43,7 +44,7 @@ Subject angular_acceleration_subject(const Character& character, int subject) {
 void angular_acceleration_measure(const CheckInput& in, MarginFold& fold) {
   const std::span<const Joint> joints = in.character.joints();
   const Motion& motion = in.motion;
-  std::vector<Vec3> speeds(joints.size());  // of the step to the frame before
+  std::vector<Vec3> speeds(joints.size());  // speed of each joint from the frame before
   for (int frame = 1; frame < motion.frame_count; ++frame) {
     const bool is_judged = frame > 1 && !is_struck(motion, frame) && !in.may_jump_into(frame) &&
                            !in.may_jump_into(frame - 1);

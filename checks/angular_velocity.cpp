@@ -1,5 +1,5 @@
-// angular_velocity: the speed between two neighbouring frames, against the joint's own limit. Intervals that are a jump
-// are not judged here but by pop.
+// angular_velocity: the speed between two neighbouring frames must stay below the joint's limit. Jumps are judged by
+// pop instead.
 #include "checks/check.h"
 #include "checks/joint_steps.h"
 #include "checks/pop.h"

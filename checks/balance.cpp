@@ -1,6 +1,6 @@
-// balance: how far inside the support area the zero moment point is, in motions that dynamics made. Where the figure
-// does not stand although its target does, there is no such point, and a distance stands for what happens. Frames after
-// a blow that is harder than the figure withstands are not judged.
+// balance: how far inside the support area the zero moment point is, in motions that dynamics made. A figure that tips,
+// falls or flies although its target stands has no such point; fixed distances stand for these states. Frames after a
+// blow that is harder than the figure withstands are not judged.
 #include <algorithm>
 
 #include "checks/check.h"
@@ -11,9 +11,9 @@ namespace contort {
 
 namespace {
 
-constexpr double kTipping_m = -0.05;  // on an edge of its feet
-constexpr double kAirborne_m = -0.1;  // off the ground
-constexpr double kFallen_m = -1.0;    // and as low as any margin gets
+constexpr double kTipping_m = -0.05;  // margin of a figure on an edge of its feet, at best
+constexpr double kAirborne_m = -0.1;  // margin of a figure off the ground
+constexpr double kFallen_m = -1.0;    // margin of a fallen figure, and the lowest of all margins
 
 double margin_of(const Stance& stance) {
   if (stance.footing == Footing::fallen) return kFallen_m;

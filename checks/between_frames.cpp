@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kMissed_m = 0.001;   // a penetration that is deeper by no more than this may be missed
 constexpr int kMostHalvings = 8;      // 256 parts of the time between two frames
-constexpr int kMostStraightened = 3;  // of these, with one direction, before distances are measured anew
+constexpr int kMostStraightened = 3;  // this many halvings use one direction, before distances are measured anew
 constexpr double kMoments = 1 << kMostHalvings;
 
 Quat ball_at(std::span<const double> row, const Joint& joint) {
@@ -84,7 +84,7 @@ void BetweenFrames::set(const Frame& before, const Frame& now) {
   add_paths();
 }
 
-// If the root has no place, no body has one.
+// If the root's place is not finite, all paths are NaN.
 void BetweenFrames::add_paths() {
   const Rigid &from = before_.world[0], &to = now_.world[0];
   const Vec3 places = from.p_m + to.p_m;
@@ -111,8 +111,8 @@ int BetweenFrames::trunk_of(int body_a, int body_b) const {
   return a;
 }
 
-// Rates of turning add up along the chain; a joint adds to the curve with its own turning and twice with that of those
-// before it.
+// Turning rates add up along the chain. The curvature bound of a joint is its own turning rate plus twice the rates of
+// the joints before it.
 BetweenFrames::Travel BetweenFrames::travel_below(int trunk, int body) const {
   Travel travel;
   double turning = 0.0;
@@ -132,7 +132,7 @@ BetweenFrames::Travel BetweenFrames::travel_below(int trunk, int body) const {
   return travel;
 }
 
-// Pairs that are searched share their moments, and most of the way to the root.
+// Cached: all searched pairs use the same moments, and share most joints on the chain to the root.
 const Rigid& BetweenFrames::root_from(Pose& pose, int joint) const {
   if (pose.is_known[at(joint)] != 0 || joint == 0) return pose.root_from[at(joint)];
   const Joint& each = character_.joints()[at(joint)];
@@ -161,22 +161,22 @@ BetweenFrames::Moment BetweenFrames::moment(const Search& search, double time, c
   return {time, moved(places.a, own_[at(a)]), moved(places.b, own_[at(b)]), 0.0, Vec3(0.0)};
 }
 
-// Bodies that are farther apart than their paths are long cannot meet; how much farther does not matter.
+// Bodies that are farther apart than the sum of their paths cannot meet, so greater distances are not measured exactly.
 void BetweenFrames::Search::measure(Moment& moment) const {
   moment.distance_m = signed_distance(moment.a, moment.b, path_m(), moment.way);
 }
 
-// The search looks for nothing that is less deep than this.
+// The search ignores overlaps that are not deeper than this.
 double BetweenFrames::Search::enough_m() const { return std::min(least_m, 0.0) - kMissed_m; }
 
-// The distance by which paths bend from straight ones between two moments.
+// The greatest distance between a path and the straight line, between two moments.
 double BetweenFrames::Search::sag_m(const Moment& from, const Moment& to) const {
   const double share = to.time - from.time;
   return 0.125 * (a.curve_m + b.curve_m) * share * share;
 }
 
-// The distance is never less than the gap along any one direction, and that would lie between those of the two moments
-// if all paths were straight.
+// Returns true if the bodies cannot overlap. It bounds their distance from below by the gap along n. For straight paths
+// that gap lies between its values at both moments.
 bool BetweenFrames::is_parted_along(const Search& search, const Vec3& n, const Moment& from, const Moment& to,
                                     int halvings) {
   const double gap_m = std::min(gap_along(from.a, from.b, n), gap_along(to.a, to.b, n));
@@ -186,12 +186,12 @@ bool BetweenFrames::is_parted_along(const Search& search, const Vec3& n, const M
   return is_parted_along(search, n, from, middle, halvings - 1) && is_parted_along(search, n, middle, to, halvings - 1);
 }
 
-// That distance cannot fall by more than the paths are long.
+// Returns true if the bodies can come near enough: the distance can shrink at most by the length of their paths.
 bool BetweenFrames::Search::is_near(const Moment& from, const Moment& to) const {
   return 0.5 * (from.distance_m + to.distance_m - path_m() * (to.time - from.time)) < enough_m();
 }
 
-// Going by the balls around two colliders.
+// Tests the bounding spheres of two colliders.
 bool BetweenFrames::may_overlap(const Search& search) const {
   const Solid &a = own_[at(search.colliders.a)], &b = own_[at(search.colliders.b)];
   const auto gap_m = [&](const Places& p) {
@@ -218,13 +218,14 @@ void BetweenFrames::halve(Search& search, const Moment& from, const Moment& to, 
   halve(search, middle, to, level + 1);
 }
 
-// The way out where two colliders are deepest: it is where a gap along another direction would be less.
+// The direction that separates the colliders at the deeper of the two moments. Along another direction the gap would be
+// smaller.
 Vec3 BetweenFrames::way_out_of_deeper(const Moment& from, const Moment& to) {
   const Moment& deeper = from.distance_m < to.distance_m ? from : to;
   return deeper.way != Vec3(0.0) ? deeper.way : way_out(deeper.a, deeper.b);
 }
 
-// Mostly the direction that parted the colliders when they were last measured still does.
+// Tests first the direction that separated the colliders at their last measurement: it mostly still does.
 void BetweenFrames::search_colliders(Search& search, Vec3& direction) {
   if (!may_overlap(search)) return;
   Moment from = moment(search, 0.0, search.before), to = moment(search, 1.0, search.now);

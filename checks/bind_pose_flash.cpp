@@ -1,6 +1,6 @@
-// bind_pose_flash: one or two frames of the rest pose in the middle of a motion, which comes from elsewhere and goes
-// back there: a layer that wrote nothing, a pose that was not set. Only a motion that is away from rest before and
-// after, and about as it was before, is judged, so that a limb may swing through its rest pose.
+// bind_pose_flash: one or two frames of the rest pose in the middle of a motion. Causes are a layer that wrote nothing,
+// or a pose that was not set. The poses before and after must be away from rest and like each other, so that a limb may
+// swing through its rest pose.
 #include <algorithm>
 #include <array>
 
@@ -16,7 +16,7 @@ constexpr double kAtRest_rad = 1.0 * kRadPerDeg;
 constexpr double kAway_rad = 10.0 * kRadPerDeg;
 constexpr int kLongest = 2;  // frames
 
-// The difference of two poses by the joint that differs most; stops where that is more than `enough`.
+// The difference of two poses, in the joint that differs most. It stops at the first joint above `enough`.
 double difference_rad(const Character& character, const double* a, const double* b, double enough) {
   double most = 0.0;
   for (const Joint& joint : character.joints().subspan(1)) {
@@ -35,7 +35,7 @@ struct Flash {
   }
   bool is_at_rest(int frame) const { return from_rest_rad(frame, kAtRest_rad) <= kAtRest_rad; }
 
-  // Frames [first, last] are at rest; both neighbours exist.
+  // Expects that the frames [first, last] are at rest, and that both neighbours exist.
   double margin_rad(int first, int last) const {
     const double* before = in.motion.row(first - 1).data();
     const double* after = in.motion.row(last + 1).data();
@@ -45,7 +45,7 @@ struct Flash {
   }
 };
 
-// The joints of a clip that turn, at the keys of the one that has most.
+// The rotations of a clip's joints, sampled at the keys of the channel with most keys.
 struct ClipPoses {
   std::vector<double> times_s;
   std::vector<Quat> rest;   // by channel
@@ -87,8 +87,8 @@ double most_apart_rad(std::span<const Quat> a, std::span<const Quat> b) {
   return most;
 }
 
-// The distance of the poses around the frames [first, last], which are at rest, from the rest pose; 0 where the figure
-// is on its way there or back, or comes from one side and goes to another.
+// The distance from rest of the poses before and after the frames [first, last], which are at rest. Returns 0 if the
+// figure moves there or back, or swings through the rest pose.
 double flash_rad(const ClipPoses& poses, int first, int last) {
   const auto apart = [&](int a, int b) { return most_apart_rad(poses.pose(a), poses.pose(b)); };
   const double away = std::min(most_apart_rad(poses.pose(first - 1), poses.rest),

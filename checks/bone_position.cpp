@@ -1,5 +1,5 @@
-// bone_position: points for which the character's file declares a region must stay in it, or out of it. Regions move
-// with the root, as if the character still stood where it was at rest.
+// bone_position: points with a region in the character's file must stay in it, or out of it. Regions move with the
+// root, as if the character still stood as it does at rest.
 #include <limits>
 
 #include "checks/check.h"

@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, 6> kPhases = {"impact", "interrupt", "cli
 constexpr double kImpact_s = 0.5;
 constexpr double kInterrupt_s = 0.15;
 
-// The phases of all frames, from the calmest to the most violent, each over those before.
+// Assigns the phases of all frames, from the calmest to the most violent. Each phase overwrites those before.
 class PhasePainter {
  public:
   PhasePainter(const Intent& intent, const Motion& motion)
@@ -43,7 +43,7 @@ class PhasePainter {
       phases_[static_cast<std::size_t>(f)] = phase;
   }
 
-  // An action comes in or fades out in these frames of its span.
+  // The frames of a span in which its action blends in or out.
   void paint_fades(const IntendedAction& action, const ActionSpan& span) {
     for (const QueueSpan& of : motion_.queue) {
       if (of.sequence != action.sequence) continue;
@@ -67,7 +67,7 @@ class PhasePainter {
       }
   }
 
-  // An interrupt's sequence begins, or one that was cut goes on or is dropped for the next.
+  // The frames after an interrupt's sequence begins, and after a sequence that was cut continues or is dropped.
   void paint_interrupts() {
     for (std::size_t i = 0; i < motion_.queue.size(); ++i) {
       const QueueSpan& span = motion_.queue[i];
@@ -98,7 +98,7 @@ std::vector<ActiveAction> active_actions(const Intent& intent, const Character& 
           return span.first_frame <= frame && frame <= span.last_frame && is_of(span, action);
         }))
       out.push_back(describe(action, intent, character));
-  // One use may move several parts.
+  // one use may move several parts
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }

@@ -14,7 +14,7 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-// NaN is not "apart": it goes on to be measured, and found.
+// NaN counts as not apart, so that it is measured and reported.
 bool apart(const Vec3& a, const Vec3& b, double reach_m) {
   const Vec3 d = a - b;
   return glm::dot(d, d) > reach_m * reach_m;
@@ -75,10 +75,11 @@ void Clearances::place_body(std::size_t body) {
 bool Clearances::are_apart(const ColliderPair& pair, double enough_m) const {
   const Solid &a = world_[at(pair.a)], &b = world_[at(pair.b)];
   const double reach = a.bound_m + b.bound_m + enough_m;
-  return reach <= 0.0 || apart(a.center_m, b.center_m, reach);  // no overlap is deeper than that of the balls
+  // No overlap is deeper than that of the bounding spheres.
+  return reach <= 0.0 || apart(a.center_m, b.center_m, reach);
 }
 
-// The extent of a body along n, from its joint and in its frame.
+// The extent of a body along n, measured from its joint and in the joint's frame.
 double Clearances::extent_of(std::size_t body, const Vec3& n) const {
   const auto& [name, joint, first, count] = character_.bodies()[body];
   double extent_m = -kUnbounded;
@@ -109,7 +110,7 @@ void Clearances::gather_round(Pair& pair, double reach_m) {
   pair.first_measured = pair.end_measured = round_.size();
   const Vec3 between = ball_center(pair.body_a) - ball_center(pair.body_b);
   pair.apart_m = std::sqrt(glm::dot(between, between)) - pair.radii_m;
-  pair.is_near = !(pair.apart_m > reach_m);  // NaN is near
+  pair.is_near = !(pair.apart_m > reach_m);  // NaN counts as near
   if (!pair.is_near) return;
   pair.apart_m = reach_m;
   place_body(pair.body_a);
@@ -126,8 +127,8 @@ void Clearances::measure(std::span<const DuePair> due) {
   round_distances(world_, round_, round_m_);
 }
 
-// Mostly the direction that parted the two when they were last measured still parts them by enough. Otherwise exact,
-// where less than `band_m`.
+// Returns the gap along the direction of the last measurement, if it is at least `enough_m`. Otherwise it returns the
+// distance, which is exact if it is below `band_m`.
 double Clearances::distance_of_other(std::size_t i, const Pair& pair, double enough_m, double band_m) {
   const Solid &a = world_[at(colliders_[i].a)], &b = world_[at(colliders_[i].b)];
   const Quat& turn = place_of(pair.body_a).q;
@@ -141,7 +142,7 @@ double Clearances::distance_of_other(std::size_t i, const Pair& pair, double eno
 
 double Clearances::distance_m(const DuePair& due) {
   Pair& pair = pairs_[due.judged];
-  double least = pair.apart_m;  // only what is nearer than the nearest so far needs to be exact
+  double least = pair.apart_m;  // only colliders nearer than this need an exact distance
   const ColliderPair* nearest = nullptr;
   for (std::size_t i = pair.first_measured; i < pair.end_measured; ++i) {
     if (std::isnan(round_m_[i])) return kNaN;

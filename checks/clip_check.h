@@ -16,14 +16,15 @@ struct ClipInput {
   const Asset& asset;
   const AssetClip& clip;
   const CheckSettings& settings;
-  bool is_loop = false;             // somebody says that it is played in a loop
-  std::optional<double> max_gap_m;  // joints farther from their places are faults; nothing says so without
-  const std::vector<ClipFoot>* feet = nullptr;  // of the file's own skeleton; null: a character's are judged
+  bool is_loop = false;             // the user says that the clip is played in a loop
+  // Greatest allowed distance of a joint from its place; without it, joints may be anywhere.
+  std::optional<double> max_gap_m;
+  const std::vector<ClipFoot>* feet = nullptr;  // feet of the file's own skeleton; null: a character's feet are judged
 };
 
 // A finding of a clip. Its frames are numbers of keys.
 struct KeyFinding : Finding {
-  double t0_s = 0.0;  // the time of the worst key; or from the key before it, if a step is what is wrong
+  double t0_s = 0.0;  // time of the worst key; for a step, the time of the key before it
   double t1_s = 0.0;
   std::string what;  // the finding in words; "" if the margin says everything
 };

@@ -14,32 +14,33 @@ namespace contort {
 namespace {
 
 constexpr double kFrame_s = 1.0 / 60.0;
-constexpr double kMostFrames = 36'000.0;  // longer clips are looked at in longer steps
+constexpr double kMostFrames = 36'000.0;  // longer clips are sampled in longer steps
 
-// All lengths are in those of the leg.
-constexpr double kStillSpeed = 0.2;    // per second: of ankle and toe that stand
-constexpr double kStill_s = 0.1;      // for so long
-constexpr double kStood_s = 0.2;       // in all, before the ground is known
-constexpr double kSameHeight = 0.03;   // of places where feet stood
-constexpr double kOnGround = 0.02;     // from the height at which feet stood
-constexpr double kUpright = 0.6;       // of the hip over the foot
-constexpr double kStays = 0.5;         // of the way of the hips of a figure on the spot
-constexpr double kSameWay = 0.8;       // cosine of the angle between two ways
-constexpr double kSamePlace = 0.2;     // of a foot that sinks, from where it stood last
-constexpr double kSameAmount = 1e-9;   // of a fault that is held: its first frame is the worst one
-constexpr double kSlide_s = 0.25;      // that a slide takes at least: quicker ones are steps without lifting the foot
-constexpr double kSlideOnTheSpot_s = 0.5;  // the same in a figure that stays, as figures of games step often
+// All lengths are in leg lengths.
+constexpr double kStillSpeed = 0.2;    // per second: ankle and toe of a standing foot move slower up and down
+constexpr double kStill_s = 0.1;      // time for which a foot must stand still
+constexpr double kStood_s = 0.2;       // total time for which a foot must stand before the ground is known
+constexpr double kSameHeight = 0.03;   // greatest difference in height between places where feet stood
+constexpr double kOnGround = 0.02;     // greatest distance of a standing foot from its height on the ground
+constexpr double kUpright = 0.6;       // smallest height of the hip over the foot of an upright figure
+constexpr double kStays = 0.5;  // greatest distance between the first and last place of the hips of a figure that stays
+constexpr double kSameWay = 0.8;       // smallest cosine of the angle between two equal directions
+constexpr double kSamePlace = 0.2;     // greatest distance of a sinking foot from the place where it stood last
+// Differences up to this are rounding: the first frame of a fault that lasts is the worst.
+constexpr double kSameAmount = 1e-9;
+constexpr double kSlide_s = 0.25;      // shortest time of a slide: quicker ones are steps without lifting the foot
+constexpr double kSlideOnTheSpot_s = 0.5;  // the same in a figure that stays, because figures of games step often
 
-constexpr double kTogether = 0.02;     // between feet that sink together
-constexpr double kDrift_s = 0.3;       // that a figure stands at least, before it has sunk: jumps are quicker
-constexpr double kSameExtension = 0.1;  // of a leg, whose figure sinks as a whole
+constexpr double kTogether = 0.02;     // greatest difference between the movements of feet that sink together
+constexpr double kDrift_s = 0.3;       // shortest time of standing before a figure has sunk: jumps are quicker
+constexpr double kSameExtension = 0.1;  // greatest change of a leg's extension in a figure that sinks as a whole
 
 constexpr std::string_view kNoGround = "no two feet come to rest on the same ground";
 
-// A foot over the frames, in lengths of its leg.
+// The path of a foot over the frames, in leg lengths.
 struct FootPath {
   std::vector<Vec3> hip, ankle, toe;
-  double leg = 0.0;  // in the file's unit
+  double leg = 0.0;  // length in the file's unit
 };
 
 Vec3 place_of(const std::vector<Mat4>& world, int node) { return Vec3(world[at(node)][3]); }
@@ -52,7 +53,8 @@ double length_of_leg(const Asset& asset, const std::vector<Mat4>& rest, const Cl
   return leg;
 }
 
-// The lower end of the range of kSameHeight that holds most of the heights; of several, the lowest.
+// The lower end of the height range of size kSameHeight that holds most of the heights; the lowest if there are
+// several.
 double most_common(std::vector<double>& heights) {
   std::ranges::sort(heights);
   double low = 0.0;
@@ -128,7 +130,7 @@ class FeetJudge {
            std::fabs(p.toe[at(frame)].y - p.toe[at(frame - 1)].y) < most;
   }
 
-  // The frames in which a foot stands still for long enough.
+  // The frames in which a foot stands still for at least kStill_s.
   std::vector<int> still_frames(const FootPath& p) const {
     std::vector<int> out;
     int first = -1;
@@ -143,7 +145,8 @@ class FeetJudge {
     return out;
   }
 
-  // The height of each foot's ankle and toe where feet rest. Returns the reason if the clip does not tell.
+  // Finds the height of each foot's ankle and toe on the ground. Returns the reason if the clip does not show the
+  // ground.
   std::string_view find_ground() {
     std::vector<std::vector<int>> still;
     std::vector<double> heights;
@@ -170,14 +173,15 @@ class FeetJudge {
            std::fabs(p.toe[at(frame)].y - toe_height_[at(foot)]) < kOnGround;
   }
 
-  // Between two frames: of the ankle, the toe and the middle between them, the one that moved least.
+  // The horizontal movement between two frames: the smallest of ankle, toe and the middle between them.
   double way(int foot, int from, int to) const {
     const FootPath& p = path(foot);
     const Vec3 ankle = p.ankle[at(to)] - p.ankle[at(from)], toe = p.toe[at(to)] - p.toe[at(from)];
     return std::min({level_length(ankle), level_length(toe), level_length(0.5 * (ankle + toe))});
   }
 
-  // Most of the way is made at once: the foot was put elsewhere without being lifted, as stylised figures do.
+  // Returns true if most of the movement happens at once: the foot stepped without being lifted, as stylised figures
+  // do.
   bool is_step(int foot, int from, int to, double slid) const {
     int first = from, last = to;
     while (first < to && way(foot, from, first + 1) < 0.1 * slid) ++first;
@@ -209,14 +213,14 @@ class FeetJudge {
     return false;
   }
 
-  // The depth of a foot that is below the ground as a whole; 0 if it is not. A toe that points down is no sunken foot.
+  // The depth of a foot that is below the ground as a whole; otherwise 0, as for a toe that points down.
   double depth(int foot, int frame) const {
     const double toe = toe_height_[at(foot)] - path(foot).toe[at(frame)].y;
     const double ankle = ankle_height_[at(foot)] - path(foot).ankle[at(frame)].y;
     return toe > 0.0 && ankle > 0.5 * toe ? toe : 0.0;
   }
 
-  // It is where it stood last: elsewhere the ground may be lower, as on stairs.
+  // Judges only feet that are where they stood last: elsewhere the ground may be lower, as on stairs.
   std::optional<FootFault> sink_of(int foot) const {
     const FootPath& p = path(foot);
     FootFault worst{.foot = foot, .leg = p.leg};
@@ -234,7 +238,7 @@ class FeetJudge {
 
   double extension(const FootPath& p, int frame) const { return p.hip[at(frame)].y - p.ankle[at(frame)].y; }
 
-  // All soles move up or down alike and keep their places: since the first frame, no foot was lifted and no leg bent.
+  // Returns true if all soles rise or sink alike and keep their places since the frame `from`, and no leg bends.
   bool moves_as_one(int from, int frame) const {
     const FootPath& first = path(0);
     const double rise = first.toe[at(frame)].y - first.toe[at(from)].y;
@@ -246,17 +250,17 @@ class FeetJudge {
     });
   }
 
-  // In the last frame no foot is as high as it was: a figure that bounces or jumps comes back.
+  // Returns true if in the last frame no foot is at its former height: a figure that bounces or jumps comes back.
   bool stays_away(int from) const {
     return std::ranges::all_of(paths_, [&](const FootPath& p) {
       return std::fabs(p.toe.back().y - p.toe[at(from)].y) > kClipSink;
     });
   }
 
-  // The greatest way that the figure goes up or down while it stands, and does not come back.
+  // The greatest distance that the figure rises or sinks while it stands, without coming back.
   std::optional<FootFault> drift_of_figure() const {
     FootFault worst{.foot = 0, .leg = path(0).leg};
-    double low = 0.0, high = 0.0;  // a figure that goes both ways bounces
+    double low = 0.0, high = 0.0;  // a figure that both rises and sinks bounces
     for (int from = 0, frame = 1; frame < count_; ++frame) {
       if (!moves_as_one(from, frame)) {
         from = frame, low = high = 0.0;
@@ -272,13 +276,13 @@ class FeetJudge {
     return worst.amount > kClipSink ? std::optional(worst) : std::nullopt;
   }
 
-  // A figure that comes back to its place stays, too: its motion is one that an engine moves.
+  // Returns true if the figure ends where it began. Such a motion is on the spot; an engine moves the figure.
   bool stays() const {
     return std::ranges::all_of(
         paths_, [](const FootPath& p) { return level_length(p.hip.back() - p.hip.front()) < kStays; });
   }
 
-  // The way that a foot makes while it stands.
+  // The total movement of a foot while it stands.
   Vec3 pulled(int foot) const {
     Vec3 sum(0.0);
     for (int frame = 1; frame < count_; ++frame)
@@ -299,8 +303,8 @@ class FeetJudge {
   double first_s_ = 0.0, step_s_ = kFrame_s;
   int count_ = 0;
   std::vector<FootPath> paths_;
-  bool stays_ = false;                             // it ends where it began
-  std::vector<double> ankle_height_, toe_height_;  // by foot, where it rests on the ground
+  bool stays_ = false;                             // the figure ends where it began
+  std::vector<double> ankle_height_, toe_height_;  // heights by foot, while it rests on the ground
 };
 
 }  // namespace

@@ -18,7 +18,8 @@ double limit_of(const AssetNode& node, const SpeedLimits& limits) {
   return limits.max_rad_s;
 }
 
-// Speed of each key interval: that between its keys, or, for a spline, the greatest inside where that is more.
+// The speed of each key interval: the speed between its keys or, for a spline, the greatest speed inside if it is
+// higher.
 std::vector<SpeedInterval> worst_of_each(const ChannelSpeeds& speeds) {
   std::vector<SpeedInterval> worst = speeds.between_keys;
   for (std::size_t key = 0; key < speeds.within_keys.size(); ++key)
@@ -26,12 +27,12 @@ std::vector<SpeedInterval> worst_of_each(const ChannelSpeeds& speeds) {
   return worst;
 }
 
-// The two kinds of findings of one channel, while its intervals are judged.
+// Collects the two kinds of findings of one channel.
 struct ChannelFolds {
   MarginFold fast;
   MarginFold pops;
-  double stricter_rad_s = 0.0;  // by which a rule makes pops of steps below the limit, <= 0
-  int apart;                    // from one interval to the next: each jump of a STEP is a finding of its own
+  double stricter_rad_s = 0.0;  // <= 0: a rule of the settings lowers the limit of pops by this
+  int apart;  // distance of two intervals in the fold: each jump of a STEP channel is a finding of its own
   ChannelFolds(const CheckSettings& settings, const std::string& node, bool jumps)
       : fast(1, jumps ? 0 : settings.merge_gap_frames),
         pops(1, jumps ? 0 : settings.merge_gap_frames),
@@ -43,7 +44,7 @@ struct ChannelFolds {
   }
 };
 
-// The largest step of each interval that would not stand alone, rad.
+// The largest step of each interval that is no lone step (lone_steps.h), rad.
 std::vector<double> allowed_turns(const AssetChannel& channel, const ChannelSpeeds& speeds) {
   std::vector<Quat> keys;
   for (const double t_s : channel.times_s) keys.push_back(sample_rotation(channel, t_s));
@@ -53,9 +54,9 @@ std::vector<double> allowed_turns(const AssetChannel& channel, const ChannelSpee
       lone_limits(speeds.jumps ? Interpolation::step : Interpolation::linear, {kBlip_rad, kJump_rad}));
 }
 
-// The greatest speed of interval i that is no pop: what the motion around it explains, above the limit, where no motion
-// explains the jump of a STEP; and below the
-// limit a leap, and what a step may turn that does not stand alone.
+// The greatest speed of interval i that is no pop. At first it is the limit, or the speed that the surrounding motion
+// explains if that is higher (pop.h); nothing explains the jumps of a STEP channel. Slower intervals are pops too if
+// they are lone steps or unexplained leaps of kLeap_rad.
 double greatest_without_pop(const ChannelSpeeds& speeds, const std::vector<double>& allowed_rad, std::size_t i,
                             double limit, bool may_leap) {
   const SpeedInterval& step = speeds.between_keys[i];
@@ -67,8 +68,8 @@ double greatest_without_pop(const ChannelSpeeds& speeds, const std::vector<doubl
   return std::min({general, leap, allowed_rad[i] / duration_s});
 }
 
-// Whether it is a pop is told by the keys alone: what a spline does between them is smooth. The fold adds the tolerance
-// of a rule again, so that one that was used to find the pop is taken off.
+// Pops are found in the speeds between keys, because a spline is smooth inside. The fold adds the tolerance of a rule
+// again, so a tolerance that was used to find the pop is subtracted here.
 void judge(const AssetChannel& channel, const ChannelSpeeds& speeds, const std::vector<SpeedInterval>& worst,
            double limit, ChannelFolds& folds) {
   const std::vector<double> allowed = allowed_turns(channel, speeds);
@@ -99,7 +100,7 @@ void add_channel(const AssetNode& node, const AssetChannel& channel, const Chann
                  const SpeedLimits& limits, ClipSpeeds& out) {
   const bool is_spline = !speeds.within_keys.empty();
   const std::vector<SpeedInterval> worst = is_spline ? worst_of_each(speeds) : std::vector<SpeedInterval>();
-  const std::vector<SpeedInterval>& intervals = is_spline ? worst : speeds.between_keys;  // no copy of long takes
+  const std::vector<SpeedInterval>& intervals = is_spline ? worst : speeds.between_keys;  // avoids copying long takes
   const double limit = limit_of(node, limits);
   for (const SpeedInterval& interval : intervals) {
     out.least_margin_rad_s = std::min(out.least_margin_rad_s, limit - interval.speed_rad_s);

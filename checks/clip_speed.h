@@ -22,7 +22,7 @@ struct SpeedLimits {
                                           // phases
 };
 
-// A finding of one clip. Frames of the finding are key intervals: interval i is between keys i and i + 1.
+// A finding of one clip. Its frames are key intervals: interval i is between keys i and i + 1.
 struct ClipFinding {
   Finding finding;
   double worst_t0_s = 0.0;  // the interval of the worst margin

@@ -1,4 +1,4 @@
-// Findings about steps between the keys of a channel: what translation_pop and scale_pop share.
+// Findings about steps between the keys of a channel, for translation_pop and scale_pop.
 #pragma once
 
 #include <span>
@@ -23,8 +23,8 @@ KeyFinding at_key(const AssetClip& clip, ChannelPath path, Finding finding, cons
 std::vector<SpeedInterval> step_intervals(const AssetChannel& channel,
                                           FunctionRef<double(std::size_t, std::size_t)> apart);
 
-// Returns one finding for each run of steps that are greater than allowed. Frames of findings are the keys after such a
-// step. `what` describes the step in words.
+// Adds one finding for each run of steps that are greater than allowed. Its frames are the keys after such a step.
+// `what` describes the step in words.
 void add_step_findings(std::string_view check, const AssetNode& node, std::string_view unit,
                        std::span<const SpeedInterval> steps, std::span<const double> allowed,
                        const CheckSettings& settings, FunctionRef<std::string(std::size_t)> what,

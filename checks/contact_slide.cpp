@@ -1,5 +1,5 @@
-// contact_slide: a joint that the generator declares to stand still must stay within 2 cm of its place. Unlike for
-// foot_slide, nothing is asked of the figure's shape, so that figures without colliders are judged, too.
+// contact_slide: a joint that the generator declares to stand still must stay within 2 cm of its place. Unlike
+// foot_slide, it does not depend on the figure's shape, so figures without colliders are judged too.
 #include "checks/check.h"
 #include "checks/fixed_limits.h"
 

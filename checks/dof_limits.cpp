@@ -11,7 +11,7 @@ namespace contort {
 namespace {
 
 struct LimitedDof {
-  std::size_t column = 0;  // in a row of the motion
+  std::size_t column = 0;  // column of a row of the motion
   const AsfBone* bone = nullptr;
   AsfDof dof;
 };
@@ -28,7 +28,7 @@ std::vector<LimitedDof> limited_dofs(const AsfSkeleton& skeleton) {
   return out;
 }
 
-// Two to each: its low and its high end.
+// Each degree of freedom has two subjects: its low and its high end.
 std::string subject_name(const std::vector<LimitedDof>& dofs, int subject) {
   const LimitedDof& limited = dofs[static_cast<std::size_t>(subject) / 2];
   return limited.bone->name + " " + std::string(dof_name(limited.dof.kind)) + (subject % 2 == 0 ? " min" : " max");
@@ -54,7 +54,8 @@ Finding to_finding(const MarginFold::Episode& e, const std::vector<LimitedDof>& 
           -e.worst_margin / scale};
 }
 
-// As an import writes it: +-360 degrees are where a character's ranges end, and 0 is the rest pose.
+// Returns true if an end is the declared one as an import writes it: clamped to +-360 degrees, and relative to the rest
+// pose.
 bool is_declared_end(double end_rad, double declared_rad, double at_rest_rad) {
   constexpr double kRounding_rad = 1e-6;
   const double written_rad = std::clamp(declared_rad, -2.0 * kPi, 2.0 * kPi);
@@ -62,7 +63,7 @@ bool is_declared_end(double end_rad, double declared_rad, double at_rest_rad) {
 }
 
 bool has_declared_travel(const Joint& joint, const AsfDof& dof, double at_rest_m) {
-  constexpr double kRounding = 1e-6;  // in parts of the range
+  constexpr double kRounding = 1e-6;  // as a fraction of the range
   const double metres = (joint.high - joint.low) / (dof.high - dof.low);
   const double off = (joint.low + at_rest_m - dof.low * metres) / (joint.high - joint.low);
   return joint.kind == JointKind::prismatic && metres > 0.0 && std::fabs(off) < kRounding;

@@ -30,9 +30,9 @@ struct DofLimits {
 // Limits are inclusive; 1e-6 degrees beyond are the rounding of printed numbers.
 inline constexpr double kDofResolution_rad = 1e-6 * kRadPerDeg;
 
-// The subjects of the character's joint_range whose limits are those that the skeleton declares, as an import from it
-// makes them: check_dof_limits judges them. `joints` says which joint of the character a degree of freedom is
-// ("lwrist_ry"). The range of a travel is the declared one in any unit of length.
+// The subjects of the character's joint_range whose limits are declared by the skeleton itself, as an import from it
+// makes them; check_dof_limits judges them. `joints` maps degrees of freedom ("lwrist_ry") to joints of the character.
+// The range of a travel may be in another unit of length than the declared one.
 std::set<std::string> subjects_with_declared_range(const AsfSkeleton& skeleton, const Character& character,
                                                    const FileJoints& joints);
 

@@ -1,6 +1,6 @@
-// rest_error, fresh_error, none_error, undo_error, history_error, rate_error, gain_error and mirror_error: a motion must
-// be equal to another one, because the generator promises it. They differ in the promise and in how much difference is
-// allowed.
+// rest_error, fresh_error, none_error, undo_error, history_error, rate_error, gain_error and mirror_error: a motion
+// must be equal to another one, because the generator promises it. The checks differ in the promise and in the allowed
+// difference.
 #include <cmath>
 
 #include "checks/check.h"
@@ -16,12 +16,12 @@ struct Allowed {
 };
 
 constexpr Allowed kEqual{1.0 * kRadPerDeg, 0.01};
-// An integrator with half as many steps does not come to the very same pose. Neither does a limb whose target moves a
-// ten-thousandth of its range: an arm of 2 x 0.3 m that is all but straight bends by 1.5 degrees for 0.1 mm, as the
-// angle grows with the root of the distance.
+// An integrator with half as many steps does not reach exactly the same pose. Neither does a limb whose target moves by
+// a ten-thousandth of its range: an almost straight arm of 2 x 0.3 m bends by 1.5 degrees for 0.1 mm, because the angle
+// grows with the root of the distance.
 constexpr Allowed kAboutEqual{5.0 * kRadPerDeg, 0.05};
 
-// Subjects are the joints, the root by its position, and then the root by its rotation.
+// Subjects are the joints, then the root's position, then the root's rotation.
 int subjects_of(const Character& character) { return static_cast<int>(character.joints().size()) + 1; }
 
 Subject subject_of(const Character& character, int subject) {

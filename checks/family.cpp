@@ -8,8 +8,8 @@ namespace {
 
 constexpr char kSeparator = '|';
 
-// In the text a separator follows each name, and it comes after every letter that a name may have: of two names of
-// which one begins with the other, the longer one is less.
+// In the text a separator follows each name. It sorts after every letter of a name, so if one name begins with the
+// other, the longer one is less.
 std::strong_ordering compare_names(const std::string& left, const std::string& right) {
   const std::size_t both = std::min(left.size(), right.size());
   if (const int order = left.compare(0, both, right, 0, both); order != 0) return order <=> 0;

@@ -1,4 +1,4 @@
-// The identity of a failure, without numbers: which check a subject of a character does not pass.
+// The identity of a failure, without numbers: the check, the character and the subject.
 #pragma once
 
 #include <compare>
@@ -14,8 +14,8 @@ struct Family {
   std::string subject;    // "arm_left/elbow max"; for a crash the signal
 
   bool operator==(const Family&) const = default;
-  std::strong_ordering operator<=>(const Family& other) const;  // the order of their texts
-  bool empty() const { return *this == Family{}; }              // no family
+  std::strong_ordering operator<=>(const Family& other) const;  // orders families as their texts
+  bool empty() const { return *this == Family{}; }              // returns true for no family
 };
 
 // The family as text for files and people, such as "joint_range|human|arm_left/elbow max"; "" for the empty family.

@@ -10,7 +10,7 @@ namespace contort {
 
 namespace {
 
-// The last key at or before the time, of the channel that has most keys.
+// The last key at or before the time, in the channel with most keys.
 int key_at(const AssetClip& clip, double t_s) {
   const auto has_fewer = [](const AssetChannel& a, const AssetChannel& b) { return a.times_s.size() < b.times_s.size(); };
   const auto most = std::max_element(clip.channels.begin(), clip.channels.end(), has_fewer);

@@ -50,7 +50,7 @@ double MarginFold::tolerated_and_recorded(int subject, int frame, double margin)
 
 void MarginFold::violated(int subject, int frame, double margin) {
   double& smallest = smallest_[static_cast<std::size_t>(subject)];
-  const bool smallest_is_nan = smallest != smallest;  // worse than anything: it stays
+  const bool smallest_is_nan = smallest != smallest;  // NaN is the worst value and stays
   if (!smallest_is_nan && !(margin >= smallest)) smallest = margin;
   int& open = open_[static_cast<std::size_t>(subject)];
   if (open < 0 || frame - episodes_[static_cast<std::size_t>(open)].last > merge_gap_frames_ + 1) {

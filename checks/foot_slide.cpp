@@ -1,7 +1,7 @@
-// foot_slide: what stands on the ground must stay where it was put. Feet are the bodies that touch the ground at rest.
-// Each corner, end or centre of a foot's colliders is followed: the point of the surface that was lowest when it came
-// to the ground. While it is within 2 mm of the ground, it must be within 2 cm of where it came down; so a foot may
-// roll from heel to toe, and turn on its ball, but not glide. What the generator means by standing is never asked.
+// foot_slide: a foot on the ground must stay where it was put. Feet are the bodies that touch the ground at rest. The
+// check follows each corner, end or centre of a foot's colliders: the point of its surface that was lowest when it
+// reached the ground. While this point is within 2 mm of the ground, it must be within 2 cm of where it came down. So a
+// foot may roll from heel to toe and turn on its ball, but not glide. The generator's intent is not used.
 #include <array>
 #include <cmath>
 
@@ -16,7 +16,7 @@ namespace contort {
 namespace {
 
 constexpr double kContact_m = 0.002;
-constexpr double kFoot_m = 0.005;  // above the ground at rest
+constexpr double kFoot_m = 0.005;  // greatest height of a foot above the ground at rest
 
 struct SolePoint {
   int subject = 0;
@@ -24,7 +24,7 @@ struct SolePoint {
   Vec3 core_m{0.0};  // in the joint's frame
   double radius_m = 0.0;
   bool touches = false;
-  Vec3 material_m{0.0};   // in the joint's frame: what touched first
+  Vec3 material_m{0.0};   // in the joint's frame: the point that touched first
   Vec3 came_down_m{0.0};  // in the world
 };
 
@@ -65,7 +65,7 @@ std::vector<SolePoint> points_of_feet(const Character& character) {
   return all;
 }
 
-// The distance that the point has slid, or a negative number while it does not touch.
+// The distance that the point has slid; negative while it does not touch the ground.
 double slide_m(SolePoint& p, const Rigid& world_from_joint, const Environment& ground) {
   if (!p.touches) {
     const Vec3 core = world_from_joint * p.core_m;
@@ -86,7 +86,7 @@ double slide_m(SolePoint& p, const Rigid& world_from_joint, const Environment& g
   return std::sqrt(glm::dot(along, along));
 }
 
-// Dynamics lets a figure tip over its soles' edges and fly; that is for the check balance.
+// With dynamics, figures may tip over the edges of their soles and fly; the check balance judges these frames.
 bool is_judged(const Motion& motion, int frame) {
   const std::vector<Stance>& stances = motion.response.stances;
   return stances.empty() || stances[static_cast<std::size_t>(frame)].footing == Footing::standing;

@@ -1,6 +1,6 @@
 // ground_penetration: how far each body is above the ground. The deepest point of a collider is a corner or end of its
-// core less its radius: exact on planes and slopes; on steps and height fields, whose distance is taken along the
-// normal under a point, a ridge between two corners can reach deeper.
+// core, minus its radius. This is exact on planes and slopes. On steps and height fields the distance is taken along
+// the normal under a point, and a ridge between two corners can reach deeper.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,8 +15,8 @@ namespace contort {
 
 namespace {
 
-// Level ground has a formula, which needs only the upward parts of what place() would compute. `up` is the row of the
-// rotation that gives them. Hulls are placed.
+// Computes the height over level ground by a formula that needs only the upward components of a transform. `up` is the
+// row of the rotation for these. Hulls are transformed completely.
 double lowest_m(const Rigid& world_from_body, const Vec3& up, const Solid& own, Solid& placed) {
   const double center_m = (world_from_body * own.center_m).y;
   switch (own.core) {
@@ -33,7 +33,7 @@ double lowest_m(const Rigid& world_from_body, const Vec3& up, const Solid& own, 
   return placed.center_m.y - extent_along(placed, Vec3(0.0, -1.0, 0.0));
 }
 
-// At least `least_m` where no point is nearer than that.
+// The height above the ground; `least_m` if no point is nearer.
 double height_above(const Environment& environment, const Solid& solid, double least_m) {
   for (const Vec3& point : core_points(solid)) {
     if (environment.is_surely_over_ground(point, solid.radius_m, least_m)) continue;
@@ -53,7 +53,7 @@ Subject ground_penetration_subject(const Character& character, int subject) {
 
 namespace {
 
-// Bodies over the ground, from frame to frame.
+// Measures the heights of bodies over the ground, frame by frame.
 class Heights {
  public:
   explicit Heights(const CheckInput& in) : in_(in), level_m_(in.environment.height_at(0.0, 0.0)) {

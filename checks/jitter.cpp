@@ -1,10 +1,9 @@
 // jitter: a joint of a clip trembles, more often to and fro than muscles can. A stroke is a movement one way, from one
-// turning point to the next: what papers on smoothness count as a peak of speed (Rohrer et al., "Movement smoothness
-// changes during stroke recovery", J. Neurosci. 22(18), 2002). The fast
-// part of a motion is its distance from its running mean, a low-pass filter, as in the residual analysis of Winter,
-// "Biomechanics and Motor Control of Human Movement", 4th ed., section 3.4.4.3. People move fingers to and fro seven
-// times a second at most, and tremble at 8 to 12 Hz by less than a degree. So 18 strokes of 2 degrees in one second, or
-// 12 in half a second, are no motion of a body.
+// turning point to the next; papers on smoothness count it as a peak of speed (Rohrer et al., "Movement smoothness
+// changes during stroke recovery", J. Neurosci. 22(18), 2002). The fast part of a motion is its distance from its
+// running mean, a low-pass filter, as in the residual analysis of Winter, "Biomechanics and Motor Control of Human
+// Movement", 4th ed., section 3.4.4.3. People move fingers to and fro at most seven times a second, and tremble at 8 to
+// 12 Hz by less than a degree. So no body makes 18 strokes of 2 degrees in one second, or 12 in half a second.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -16,10 +15,10 @@ namespace contort {
 
 namespace {
 
-constexpr double kMean_s = 0.07;  // on either side: a mean over 0.14 s keeps what is slower than 5 Hz or so
+constexpr double kMean_s = 0.07;  // on either side: a mean over 0.14 s keeps motion slower than about 5 Hz
 constexpr double kTremble_rad = 2.0 * kRadPerDeg;
 constexpr double kTrembleOfFigure = 0.005;
-constexpr double kSlackOfTimes_s = 1e-4;  // files keep times as 32-bit numbers
+constexpr double kSlackOfTimes_s = 1e-4;  // files store times as 32-bit numbers
 
 struct TrembleWindow {
   double length_s;
@@ -33,10 +32,10 @@ struct Stroke {
   double size;
 };
 
-// The values of a channel as differences: `difference(a, b)` leads from key a to key b.
+// The difference between two values of a channel: `difference(a, b)` leads from key a to key b.
 using Difference = FunctionRef<Vec3(std::size_t, std::size_t)>;
 
-// The distance of a key from the mean of the keys around it; 0 for the first and last.
+// The distance of a key from the mean of the keys around it; 0 for the first and last key.
 Vec3 fast_part(const AssetChannel& channel, std::size_t key, Difference difference) {
   const std::vector<double>& t = channel.times_s;
   std::size_t reach = 0;
@@ -62,11 +61,11 @@ std::vector<Stroke> strokes_of(const AssetChannel& channel, Difference differenc
 }
 
 struct Tremble {
-  double size = 0.0;  // of the least stroke that counts
+  double size = 0.0;  // size of the smallest stroke that counts
   std::size_t first_key = 0, last_key = 0;
 };
 
-// The window in which the least of the strokes that are too many is greatest.
+// The window with too many strokes in which the smallest counted stroke is largest.
 Tremble worst_tremble(const std::vector<double>& times_s, const std::vector<Stroke>& strokes) {
   Tremble worst;
   std::vector<double> sizes;

@@ -1,4 +1,5 @@
-// joint_torque: efforts of motions that dynamics made, against the strength that the character's file declares.
+// joint_torque: required torques and forces as a fraction of the strength that the character's file declares, in
+// motions that dynamics made.
 #include <algorithm>
 
 #include "checks/check.h"
@@ -7,7 +8,7 @@ namespace contort {
 
 namespace {
 
-// The share of the strength in the effort's direction that is left. No strength at all: what is needed, N m.
+// The fraction of the joint's strength that is left. A joint without strength gives the negative effort, in N m.
 double margin_of(const Joint& joint, double effort) {
   const double limit = effort > 0.0 ? joint.strength_high : joint.strength_low;
   return limit != 0.0 ? 1.0 - effort / limit : -(effort > 0.0 ? effort : -effort);

@@ -27,13 +27,13 @@ void append_findings(const CheckDef& check, const Character& character, const Ma
   }
 }
 
-// Tipping, lying, or off the ground although its target stands.
+// Returns true if the figure tips, lies, or is off the ground although its target stands.
 bool has_lost_balance(const Stance& stance) {
   if (stance.footing == Footing::standing) return false;
   return stance.footing != Footing::airborne || stance.planned != 0;
 }
 
-// The motion's end where it never does.
+// The number of frames if the figure never loses its balance.
 int first_without_balance(const Motion& motion) {
   const std::vector<Stance>& stances = motion.response.stances;
   const auto lost = std::find_if(stances.begin(), stances.end(), has_lost_balance);
@@ -53,7 +53,7 @@ Evaluation Judge::evaluate(const Execution& execution, std::string_view only_che
   return evaluation;
 }
 
-// Waivers for a phase need an intent: without one no frame has a phase, and they hide nothing.
+// Waivers for a phase need an intent. Without it no frame has a phase, and these waivers hide nothing.
 void Judge::set_waived_apart(const Execution& execution, Evaluation& evaluation) const {
   std::vector<Phase> phases;
   if (execution.intent) {
@@ -90,7 +90,7 @@ std::vector<Finding> Judge::judge(const Character& character, const Motion& moti
 
 namespace {
 
-// Puts the check among those that judged, or among those that could not.
+// Adds the check to those that judged, or to those that could not.
 void add_verdict(const CheckDef& check, std::string_view reason, const MarginFold& margins, Evaluation& out) {
   const int subjects = reason.empty() ? margins.judged_subjects() : 0;
   if (subjects > 0)
@@ -115,7 +115,7 @@ void Judge::judge(CheckInput input, std::string_view only_check, Evaluation& out
     add_verdict(check, reason, margins, out);
     if (check.needs != Needs::clip) smallest_.push_back({&check, margins.smallest()});
   }
-  // That a figure loses its balance is the fault; what its limbs do from then on only follows from it.
+  // Losing the balance is the fault. The movements of the limbs after it only follow from it, and are not judged.
   const int lost = first_without_balance(input.motion);
   std::erase_if(out.findings, [&](const Finding& f) { return f.first_frame >= lost && f.check != "balance"; });
   std::stable_sort(out.findings.begin(), out.findings.end(),
@@ -126,11 +126,11 @@ namespace {
 
 struct Candidate {
   double nearness = 0.0;  // smallest margin in the check's scale
-  std::size_t row = 0;    // of smallest_margins()
+  std::size_t row = 0;    // index into smallest_margins()
   int subject = 0;
 };
 
-// The subjects that were judged, nearest to their limit first; a margin that is no number is nearest of all.
+// The judged subjects, nearest to their limits first. NaN is nearest of all.
 std::vector<Candidate> by_nearness(const std::vector<SmallestMargins>& smallest) {
   std::vector<Candidate> all;
   for (std::size_t row = 0; row < smallest.size(); ++row)

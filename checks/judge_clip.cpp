@@ -38,12 +38,13 @@ int subjects_of(const std::vector<JudgedCheck>& judged, std::string_view check) 
   return found == judged.end() ? 0 : found->subjects;
 }
 
-// Whether a check judges both clips and motions of characters, and judged the clip: it need not judge the motion again.
+// Returns true if the check judged the clip already. A check that judges both clips and characters' motions then need
+// not judge the motion.
 bool is_judged_in_clip(std::string_view check, const std::vector<JudgedCheck>& judged) {
   return find_check(check).in_clip != nullptr && subjects_of(judged, check) > 0;
 }
 
-// The subjects that the check is not to judge in the motion.
+// The subjects that this check must skip in the motion.
 std::set<std::string> left_to_others(std::string_view check, const JudgedElsewhere& elsewhere) {
   std::set<std::string> joints;
   if (is_speed(check) || check == "angular_acceleration") joints = elsewhere.not_followed;

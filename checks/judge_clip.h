@@ -35,13 +35,13 @@ struct ClipEvaluation {
 
 ClipEvaluation judge_clip(const ClipInput& in, const SpeedLimits& limits, const Capture* capture);
 
-// Joints, and limits of joints, that some checks are not to judge in the motion.
+// The joints, and limits of joints, that some checks must skip in the motion because they are judged elsewhere.
 struct JudgedElsewhere {
-  // Their node's own channel is judged, exactly between its keys: a speed is judged once.
+  // Joints whose own channel in the file is judged, exactly between its keys. Their speed is not judged twice.
   std::set<std::string> in_channels{};
-  // Their coordinates say nothing of how their nodes turn; nor of accelerations.
+  // Joints whose coordinates do not follow the rotation of their nodes; their speeds and accelerations are not judged.
   std::set<std::string> not_followed{};
-  // "arm/wrist max": limits that the file declares itself, and that are judged on its own numbers.
+  // Limits such as "arm/wrist max" that the file declares itself; they are judged on the file's own numbers.
   std::set<std::string> in_file{};
 };
 

@@ -11,9 +11,9 @@ namespace {
 
 constexpr int kFewestOthers = 4;
 constexpr double kAnyStep = std::numeric_limits<double>::infinity();
-constexpr double kSlack_s = 1e-4;  // files keep times as 32-bit numbers
+constexpr double kSlack_s = 1e-4;  // files store times as 32-bit numbers
 
-// The greatest steps around some intervals: of those beside them, and of all others.
+// The greatest steps around some intervals: in the intervals beside them, and in all others nearby.
 struct Around {
   double beside = 0.0;
   double farther = 0.0;
@@ -33,7 +33,7 @@ class StepsOfChannel {
   double net(std::size_t i, std::size_t j) const { return apart_(i, j + 1); }
   double duration_s(std::size_t i, std::size_t j) const { return v_[j].t1_s - v_[i].t0_s; }
 
-  // Around i and j; what lies between them is beside both.
+  // Intervals between i and j count as beside both.
   Around around(std::size_t i, std::size_t j) const {
     Around out;
     const double length_s = std::max(duration_s(i, i), duration_s(j, j));
@@ -52,7 +52,7 @@ class StepsOfChannel {
     ++out.count;
   }
 
-  // The step that the same speed makes in an interval of this length; of a shorter interval its own.
+  // The step that the same speed makes in an interval of this length. The step of a shorter interval is not scaled.
   double step_in(std::size_t k, double length_s) const {
     const double own_s = duration_s(k, k);
     return own_s > length_s ? steps_[k] * length_s / own_s : steps_[k];
@@ -69,7 +69,7 @@ double allowed_jump(const StepsOfChannel& steps, std::size_t i, double least) {
   return std::max({least, kBlipFactor * around.beside, kJumpFactor * around.farther});
 }
 
-// Away in interval i, and back in interval j.
+// The largest step for a joint that leaves its place in interval i and comes back in interval j.
 double allowed_blip(const StepsOfChannel& steps, std::size_t i, std::size_t j, double least) {
   const Around around = steps.around(i, j);
   if (around.count < kFewestOthers) return kAnyStep;

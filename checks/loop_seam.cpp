@@ -31,13 +31,14 @@ bool has_seam(const AssetChannel& channel) {
 // ---- places
 
 constexpr double kSeamOfFigure = 0.01;  // 2 cm of a figure of 2 m
-constexpr double kLatestStart_s = 0.1;  // exporters begin with frame 0 or 1, of 24 a second or more
+constexpr double kLatestStart_s = 0.1;  // exporters begin with frame 0 or 1, at 24 Hz or more
 
 bool has_place_seam(const AssetChannel& channel) {
   return channel.path == ChannelPath::translation && channel.times_s.size() >= 3;
 }
 
-// Whether the node may end elsewhere than it began: it travels, and what it hangs on does not.
+// Returns true if the node moves and no node above it does. Such a node carries the figure, and may end elsewhere than
+// it began.
 bool may_travel(const ClipInput& in, int node) {
   for (int n = in.asset.nodes[at(node)].parent; n >= 0; n = in.asset.nodes[at(n)].parent)
     for (const AssetChannel& channel : in.clip.channels)
@@ -72,7 +73,7 @@ void add_place_seam(const ClipInput& in, const ClipFigure& figure, const AssetCh
   out.push_back(std::move(finding));
 }
 
-// Players begin at 0 s: a clip that has its first key later stands still until then, each time around.
+// Players begin at 0 s. If the first key of a clip is later, the figure stands still until then in each loop.
 void add_late_start(const ClipInput& in, std::vector<KeyFinding>& out) {
   const double margin = kLatestStart_s + tolerance_of(in.settings, "loop_seam", "figure") - in.clip.first_s;
   if (!(margin < 0.0)) return;

@@ -9,7 +9,7 @@ namespace contort {
 
 namespace {
 
-// The limit of a subject. Value and limit give the margin.
+// The limit of a subject, from which a margin gives the value.
 struct LimitOfSubject {
   double limit = 0.0;
   bool is_lower = false;  // the value must stay above it
@@ -21,7 +21,7 @@ const Joint* joint_named(const Character& character, std::string_view name) {
   return found == joints.end() ? nullptr : &*found;
 }
 
-// "arm_left/elbow max": the ends of a range of one coordinate. A ball's swing has another limit in each direction.
+// "arm_left/elbow max": an end of the range of one coordinate. The swing of a ball joint has no single limit.
 std::optional<LimitOfSubject> limit_of_range(const Character& character, std::string_view subject) {
   const std::size_t space = subject.find(' ');
   if (space == std::string_view::npos) return {};
@@ -33,7 +33,7 @@ std::optional<LimitOfSubject> limit_of_range(const Character& character, std::st
   return {};
 }
 
-// Efforts are shares of a strength, which a joint without any does not have.
+// Efforts are fractions of the joint's strength; a joint without strength has none.
 std::optional<LimitOfSubject> limit_of_effort(const Joint& joint) {
   if (joint.strength_low == 0.0 || joint.strength_high == 0.0) return {};
   return LimitOfSubject{1.0};

@@ -1,5 +1,5 @@
-// mimic_error: a joint that must follow another one, as URDF's mimic or MuJoCo's joint equality says, is where the
-// other one takes it. Drives and encoders are not exact, so that a degree or a millimetre is allowed.
+// mimic_error: a joint that must follow another one, as URDF's mimic or MuJoCo's joint equality declares, must be where
+// the other one takes it. Drives and encoders are not exact, so a degree or a millimetre is allowed.
 #include <cmath>
 
 #include "checks/check.h"

@@ -1,4 +1,4 @@
-// non_finite: a pose must be made of numbers, and of ones that can be meant: within 1,000 m and 1,000 rad of zero.
+// non_finite: all values of a pose must be finite, and within 1,000 m and 1,000 rad of zero.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,8 +15,8 @@ double margin_of(std::span<const double> values) {
   double least = kGreatest;
   for (const double value : values) {
     const double margin = kGreatest - std::fabs(value);
-    if (!(margin >= least)) least = margin;  // NaN too,
-    if (std::isnan(least)) return least;     // and it stays
+    if (!(margin >= least)) least = margin;  // also true for NaN
+    if (std::isnan(least)) return least;     // NaN stays
   }
   return least;
 }

@@ -1,4 +1,4 @@
-// obstacle_penetration: how far each body is from the nearest obstacle. Hands may press 5 mm into what they touch.
+// obstacle_penetration: how far each body is from the nearest obstacle. Hands may press 5 mm into objects.
 #include <algorithm>
 #include <limits>
 
@@ -17,7 +17,7 @@ std::vector<Solid> placed_obstacles(const Environment& environment) {
   return solids;
 }
 
-// Infinite where nothing is within the band; NaN stays.
+// The distance to the nearest obstacle; infinite if none is within the band. NaN stays.
 double clearance_m(const Solid& solid, std::span<const Solid> obstacles, double band_m) {
   double least_m = std::numeric_limits<double>::infinity();
   for (const Solid& obstacle : obstacles) {

@@ -1,5 +1,5 @@
-// off_axis: a hinge turns about its axis and in no other way. The coordinate of a hinge cannot hold the rest of its
-// rotation, so the generator's host hands it over.
+// off_axis: a hinge must turn about its axis only. The coordinate of a hinge cannot hold other rotations, so the host
+// of the generator stores their angle separately.
 #include "checks/check.h"
 
 namespace contort {

@@ -11,14 +11,14 @@ namespace contort {
 
 namespace {
 
-constexpr int kParts = 8;  // of an interval of a spline
+constexpr int kParts = 8;  // samples per interval of a spline
 
 const AssetNode* parent_of(const Asset& asset, const AssetNode& node) {
   return node.parent < 0 ? nullptr : &asset.nodes[static_cast<std::size_t>(node.parent)];
 }
 
-// Whether a joint has a joint above it that has one too. In a file without a skin, which says what joints are, every
-// node counts as one.
+// Returns true if the node has at least two joints above it. In a file without a skin, which would name the joints,
+// every node counts as a joint.
 bool is_inner(const Asset& asset, const AssetNode& node) {
   const bool has_joints = std::ranges::any_of(asset.nodes, &AssetNode::is_joint);
   const AssetNode* parent = parent_of(asset, node);
@@ -36,7 +36,7 @@ bool hangs_on(const Asset& asset, int node, int above) {
   return false;
 }
 
-// Whether the node carries the figure from place to place, in a file without a skin: nothing above it moves, and
+// Returns true if the node carries the figure through the world, in a file without a skin: nothing above it moves, and
 // something below it does.
 bool carries_figure(const Asset& asset, const AssetClip& clip, int node) {
   if (std::ranges::any_of(asset.nodes, &AssetNode::is_joint)) return false;
@@ -53,7 +53,7 @@ double gap_m(const AssetChannel& channel, const Vec3& rest_m, double t_s) {
   return std::sqrt(glm::dot(off, off));
 }
 
-// The widest from this key up to the next one.
+// The widest gap from this key up to the next one.
 double widest_m(const AssetChannel& channel, const Vec3& rest_m, std::size_t key) {
   double widest = gap_m(channel, rest_m, channel.times_s[key]);
   if (channel.interpolation != Interpolation::cubic_spline || key + 1 == channel.times_s.size()) return widest;
@@ -97,7 +97,7 @@ std::vector<Finding> check_part_gap(const Asset& asset, const AssetClip& clip, d
 
 ClipCheckResult part_gap_in_clip(const ClipInput& in) {
   if (!in.max_gap_m) return {0, "nothing says how far a joint may be from its place (--max-gap-m)", {}};
-  // One without a translation is in its place, which is a judgement, too.
+  // Joints without a translation channel are in place; they count as judged.
   const auto is_one = [&](const AssetNode& node) { return is_inner(in.asset, node); };
   const auto joints = static_cast<int>(std::ranges::count_if(in.asset.nodes, is_one));
   if (joints == 0) return {0, "no joint hangs below the root's own", {}};

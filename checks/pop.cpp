@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::infinity();
 
-// The faster neighbour of the window [first, last], or infinite where that is no window of a pop.
+// The faster neighbour of the window [first, last]; infinite if the window cannot be a pop.
 double neighbours_rad_s(std::span<const SpeedInterval> v, std::size_t first, std::size_t last) {
   const bool has_before = first > 0;
   const bool has_after = last + 1 < v.size();
@@ -34,7 +34,7 @@ double speed_into(const Motion& motion, const Joint& joint, int frame) {
   return joint_step(joint, motion.row(frame - 1).data(), motion.row(frame).data()) * motion.rate_into_hz(frame);
 }
 
-// Two steps on either side are all that counts.
+// Only two steps on either side matter.
 double explained_speed(const Motion& motion, const Joint& joint, int frame) {
   const int first = std::max(1, frame - 2), last = std::min(motion.frame_count - 1, frame + 2);
   std::array<SpeedInterval, 5> around;
@@ -58,7 +58,7 @@ void pop_measure(const CheckInput& in, MarginFold& fold) {
       const double speed = speed_into(in.motion, joints[j], frame);
       double limit = joints[j].max_speed;
       if (speed > limit) limit = std::max(limit, explained_speed(in.motion, joints[j], frame));
-      if (speed == speed) fold.report(static_cast<int>(j) - 1, frame, limit - speed);  // no number: angular_velocity
+      if (speed == speed) fold.report(static_cast<int>(j) - 1, frame, limit - speed);  // angular_velocity reports NaN
     }
 }
 

@@ -1,4 +1,4 @@
-// quaternion_length: a rotation is a quaternion of length 1. Another length scales and shears what it turns.
+// quaternion_length: a rotation must be a quaternion of length 1. Other lengths scale and shear the model.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@ namespace contort {
 namespace {
 
 constexpr double kLengthLimit = 1e-3;
-constexpr double kLengthLimitOfFiles = 0.01;  // which round to bytes and half floats
+constexpr double kLengthLimitOfFiles = 0.01;  // files round quaternions to bytes and half floats
 
 }  // namespace
 

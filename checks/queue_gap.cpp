@@ -1,5 +1,5 @@
-// queue_gap: a sequence begins with its first frame, and goes on with the one in which it was cut. What is judged is
-// how much of it is left out or played twice.
+// queue_gap: a sequence must begin with its first frame, and continue with the frame in which it was cut. The measure
+// is the time that is skipped or played twice.
 #include <algorithm>
 #include <cstdlib>
 
@@ -9,9 +9,9 @@ namespace contort {
 
 namespace {
 
-constexpr double kGap_s = 0.001;  // frames are whole: less than one of any film
+constexpr double kGap_s = 0.001;  // shorter than a frame at any frame rate
 
-// The frame of the sequence's own content that comes next, from 0 on; the first where it never ran before.
+// The frame of the sequence's content that should come next, from 0 on; 0 if the sequence has not run before.
 int next_content(const Motion& motion, std::size_t span) {
   int next = 0;
   for (const QueueSpan& before : std::span(motion.queue).first(span))
@@ -26,7 +26,7 @@ int queue_gap_subject_count(const Character&) { return 1; }
 
 Subject queue_gap_subject(const Character&, int) { return {"queue", "s"}; }
 
-// If several begin in one frame, as sequences without length do, the worst counts.
+// If several sequences begin in one frame, as those without length do, the worst one counts.
 void queue_gap_measure(const CheckInput& in, MarginFold& fold) {
   const std::vector<QueueSpan>& queue = in.motion.queue;
   for (std::size_t i = 0; i < queue.size() && queue[i].first_frame < in.motion.frame_count;) {

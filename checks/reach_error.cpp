@@ -1,6 +1,6 @@
-// reach_error: a limb that was sent to a point must be there in the frames that the generator says (Intent::goals).
-// Judged only where nothing is added to the limb and dynamics does not move it (there tracking_error judges). Where the
-// limb is follows from the pose alone; a point out of reach is found here.
+// reach_error: a limb that was sent to a point must be there in the frames that the generator gives (Intent::goals). It
+// is not judged if an additive action or dynamics moves the limb; tracking_error judges the latter. The place of the
+// limb follows from the pose alone, so a point out of reach is found here.
 #include <algorithm>
 #include <cmath>
 
@@ -22,7 +22,7 @@ Vec3 target_of(const CheckInput& in, const Goal& goal, int frame) {
   return in.world_at(frame)[0] * inverse(in.character.rest_root()) * goal.target_m;
 }
 
-// Something is added to the limb in this frame.
+// Returns true if an additive action moves the limb in this frame.
 bool is_disturbed(const CheckInput& in, const Goal& goal, int frame) {
   const int joint = in.character.sockets()[static_cast<std::size_t>(goal.socket)].joint;
   const int hand = in.character.joints()[static_cast<std::size_t>(joint)].part;

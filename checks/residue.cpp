@@ -1,6 +1,7 @@
-// residue: what an additive action adds must be gone when it is over. Judged where nothing else moved the part from the
-// frame before it to the frame after it: then the part must be where it was. A leg whose foot stands also moves with the
-// trunk that it carries, and an arm with a walk; a part may still be on its way back from an earlier action.
+// residue: the offset of an additive action must be gone when the action is over. It is judged if no other action moved
+// the part from the frame before the action to the frame after it: then the part must be where it was. A leg whose foot
+// stands also moves with the trunk that it carries, and an arm moves with a walk. A part may also still be on its way
+// back from an earlier action.
 #include <algorithm>
 
 #include "checks/fixed_limits.h"
@@ -11,7 +12,7 @@ namespace contort {
 
 namespace {
 
-constexpr double kRests_rad = 0.01 * kLeft_rad;  // in a frame: what moves less is at rest, but for its generator's rounding
+constexpr double kRests_rad = 0.01 * kLeft_rad;  // a part that moves less in a frame is at rest, apart from rounding
 
 double difference_rad(const CheckInput& in, const Part& part, int before, int after) {
   double most = 0.0;
@@ -19,12 +20,12 @@ double difference_rad(const CheckInput& in, const Part& part, int before, int af
                                                           static_cast<std::size_t>(part.joint_count)))
     if (const double d = likeness_rad(joint, in.motion.row(before).data(), in.motion.row(after).data()); !(d <= most)) {
       most = d;
-      if (d != d) break;  // no number: nothing is worse
+      if (d != d) break;  // NaN is the worst value
     }
   return most;
 }
 
-// Additives may follow each other: from the first one's start to the last one's end.
+// Merges additive actions that follow each other: from the first one's start to the last one's end.
 ActionSpan merged(const CheckInput& in, ActionSpan span) {
   for (bool grows = true; grows;) {
     grows = false;
@@ -35,7 +36,7 @@ ActionSpan merged(const CheckInput& in, ActionSpan span) {
   return span;
 }
 
-// Whether a part hangs on another one, directly or by way of others.
+// Returns true if a part hangs on another one, directly or through others.
 bool hangs_on(const Character& character, int part, int other) {
   const Part& lower = character.parts()[static_cast<std::size_t>(part)];
   if (lower.joint_count == 0) return false;
@@ -48,8 +49,8 @@ bool are_one_limb(const Character& character, int part, int other) {
   return part != other && (hangs_on(character, part, other) || hangs_on(character, other, part));
 }
 
-// Whether an action of a part that this one hangs on, or that hangs on this one, may have moved it between these frames:
-// what is not additive stays where it went, and an additive counts while it is in force in one of them.
+// Returns true if an action on an ancestor or a descendant of the part may have moved it between these frames. Additive
+// actions count only while one of the frames is in their span. Other actions leave the part where they moved it.
 bool moves_with_others(const CheckInput& in, int part, int before, int after) {
   return std::ranges::any_of(in.motion.spans, [&](const ActionSpan& span) {
     if (!are_one_limb(in.character, part, span.part)) return false;

@@ -1,6 +1,6 @@
-// root_pop: the root of a figure is elsewhere, or faces another way, for a frame or two or from one frame on, while it
-// hardly moves around that (lone_steps.h). Places are judged by the size of the figure at rest, as those of nodes in
-// clips are (translation_pop). Turns are judged like those of joints (pop), by the speed that the generator declares.
+// root_pop: the root of a figure jumps or turns to another place for a frame or two, or for good, while it hardly moves
+// around that time (lone_steps.h). Places are judged relative to the size of the figure at rest, like those of nodes in
+// clips (translation_pop). Turns are judged like those of joints (pop), by the speed that the generator declares.
 #include <algorithm>
 #include <limits>
 
@@ -45,7 +45,7 @@ void judge_steps(const CheckInput& in, int subject, FunctionRef<double(std::size
   for (int frame = 1; frame < in.motion.frame_count; ++frame) {
     const std::size_t i = at(frame - 1);
     const double step = apart(i, i + 1);
-    if (in.may_root_jump_into(frame) || !(step == step)) continue;  // what is no number is non_finite
+    if (in.may_root_jump_into(frame) || !(step == step)) continue;  // non_finite reports NaN
     const double explained = explained_rad_s(steps, i) / in.motion.rate_hz;
     const double leap = std::max(explained, std::min(limits.leap, limits.declared));
     fold.report(subject, frame, std::min(lone[i], leap) - step);

@@ -1,7 +1,6 @@
-// scale_pop: a node of a clip is shrunk, blown up or mirrored for a key or two, or from one key on, while its scale
-// hardly changes around that (lone_steps.h). Changes are told as parts of the usual size, the median of the clip: to
-// nothing is a step of 1, to the mirror image one of 2. Models hide parts by a scale of 0 from one key on; that is no
-// finding.
+// scale_pop: a node of a clip shrinks, grows or is mirrored for a key or two, or for good, while its scale hardly
+// changes around that time (lone_steps.h). Changes are fractions of the usual size, the median of the clip: a step to
+// zero is 1, a step to the mirror image 2. Models hide parts by a scale of 0; that is no finding.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,9 +11,9 @@ namespace contort {
 
 namespace {
 
-constexpr double kHidden = 0.01;  // of the usual size
+constexpr double kHidden = 0.01;  // hidden nodes are smaller than this part of the usual size
 constexpr double kBlipOfSize = 0.1;
-constexpr double kJumpOfSize = 0.4;  // twice or half the size is at least half of the usual one
+constexpr double kJumpOfSize = 0.4;  // a node that doubles or halves changes by at least 0.5 of its usual size
 
 bool is_scaled(const AssetChannel& channel) {
   return channel.path == ChannelPath::scale && channel.times_s.size() > 1;
@@ -27,7 +26,7 @@ std::string text_of(const Vec3& s) {
   return is_even ? fixed_text(s.x, 3) : fixed_text(s.x, 3) + " " + fixed_text(s.y, 3) + " " + fixed_text(s.z, 3);
 }
 
-// The median of the sizes, or the greatest where most of them are 0.
+// The median of the sizes, or the greatest size if the median is 0.
 double usual_size(const std::vector<Vec3>& scales) {
   std::vector<double> sizes;
   for (const Vec3& scale : scales) sizes.push_back(greatest(scale));
@@ -45,7 +44,7 @@ struct ScaleSteps {
   bool hides_or_shows(std::size_t i) const { return is_hidden(i) != is_hidden(i + 1); }
 };
 
-// A part that goes or comes and stays so is meant.
+// Allows steps that hide or show a part for good.
 void allow_hiding(const ScaleSteps& of, std::vector<double>& allowed) {
   const std::vector<double> judged = allowed;
   const auto is_judged = [&](std::size_t i) { return i < judged.size() && std::isfinite(judged[i]); };

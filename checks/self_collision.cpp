@@ -1,5 +1,5 @@
-// self_collision: signed distance of every judged pair of bodies, in frames and between them. Most pairs need not be
-// looked at in most frames: as far as they were apart, they cannot have come near enough since.
+// self_collision: signed distance of every judged pair of bodies, in frames and between them. Most pairs are not
+// measured in most frames, because they cannot have come near enough since their last measurement.
 // docs/reference/checks.md has the bounds.
 #include <algorithm>
 #include <cmath>
@@ -13,10 +13,11 @@ namespace contort {
 
 namespace {
 
-// A pair is measured somewhat farther than it matters: so that this many frames like this one need not look at it.
+// A pair is measured exactly up to a somewhat greater distance than it matters, so that at the present speed it need
+// not be measured again for this many frames.
 constexpr double kFramesAhead = 8.0;
 
-// All judged pairs, from frame to frame.
+// Watches all judged pairs, frame by frame.
 class Watch {
  public:
   Watch(const CheckInput& in, MarginFold& fold)
@@ -31,7 +32,7 @@ class Watch {
       for (const Grasp& grasp : in.intent->grasps) add_grasp(grasp);
   }
 
-  // Frames in order.
+  // Expects the frames in ascending order.
   void look_at(int frame) {
     if (frame > 0)
       between_.set({in_.motion.row(frame - 1), in_.world_at(frame - 1)}, {in_.motion.row(frame), in_.world_at(frame)});
@@ -52,7 +53,8 @@ class Watch {
     return std::min(in_.settings.collision_band_m, fold_.matters_below(static_cast<int>(p)));
   }
 
-  // Paths add up; where a pair is says more, and costs more. NaN is not parted.
+  // First compares with the summed path lengths, which is cheap. Only if that fails, it computes the gap of the pair.
+  // NaN counts as touching.
   bool is_parted(std::size_t p) {
     const double now_m = clearances_.gap_m(p);
     if (!(now_m >= matters_m_[p]) || between_.may_overlap(p, no_nearer_m_[p], now_m)) return false;
@@ -82,7 +84,7 @@ class Watch {
     });
   }
 
-  // A grasp that has ended in the frame before counts between the frames, too.
+  // A grasp that ended in the frame before still counts between the frames.
   void judge(const DuePair& due, int frame) {
     if (is_grasped(due.judged, frame) || is_grasped(due.judged, frame - 1)) {
       no_nearer_m_[due.judged] = clearances_.distance_m(due);
@@ -110,9 +112,9 @@ class Watch {
   MarginFold& fold_;
   Clearances clearances_;
   BetweenFrames between_;
-  std::vector<double> paths_m_;      // of judged pairs, since the frame before
-  std::vector<double> no_nearer_m_;  // than this is a judged pair; NaN where that is unknown
-  std::vector<double> matters_m_;    // distances from here up change nothing
+  std::vector<double> paths_m_;      // path length of each judged pair since the frame before
+  std::vector<double> no_nearer_m_;  // lower bound of each pair's distance; NaN if unknown
+  std::vector<double> matters_m_;    // greater distances of a pair change no result
   std::vector<DuePair> due_;
   std::vector<GraspedPair> grasped_;
 };

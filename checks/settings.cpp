@@ -134,7 +134,7 @@ double tolerance_of(const CheckSettings& settings, std::string_view check, std::
   return tolerance;
 }
 
-// Backtracks to the last star only: linear in what people write, quadratic at worst.
+// Backtracks to the last star only: linear for common patterns, quadratic at worst.
 bool matches(std::string_view pattern, std::string_view text) {
   std::size_t p = 0, t = 0, star = std::string_view::npos, resumed = 0;
   while (t < text.size()) {

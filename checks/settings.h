@@ -43,11 +43,12 @@ struct Waiver {
 };
 
 struct CheckSettings {
-  double collision_band_m = 0.1;  // Clearances are measured up to this; what is farther apart is not reported.
+  double collision_band_m = 0.1;  // Clearances are measured up to this; bodies that are farther apart are not reported.
   int merge_gap_frames = 2;       // Safe frames between two violations that do not split a finding.
   std::vector<LimitRule> limits;
   std::vector<Waiver> waivers;
-  std::string today;  // "2026-11-21", not in the file: on which day waivers are judged; empty: none has expired
+  // "2026-11-21", not in the file: the day on which waivers are judged; empty: no waiver has expired.
+  std::string today;
   bool operator==(const CheckSettings&) const = default;
 };
 

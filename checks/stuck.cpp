@@ -1,4 +1,4 @@
-// stuck: a sequence must leave the queue when its content is over. What is judged is how long it stays beyond.
+// stuck: a sequence must leave the queue when its content is over. The measure is the time that it stays longer.
 #include <algorithm>
 
 #include "checks/check.h"

@@ -1,6 +1,6 @@
-// tracking_error: after an impact a joint must be back at its target in time. Judged while the figure stands and
-// dynamic control does nothing; what it does for loads and balance is no error. Nothing is judged after a blow that is
-// harder than the figure withstands.
+// tracking_error: after an impact each joint must return to its target in time. It is judged while the figure stands
+// and dynamic control does nothing, because a reaction to loads or lost balance is no error. Nothing is judged after a
+// blow that is harder than the figure withstands.
 #include <algorithm>
 #include <cmath>
 
@@ -27,7 +27,7 @@ bool is_left_alone(const Response& response, int frame) {
          std::all_of(row, row + static_cast<std::ptrdiff_t>(n), [](double added) { return added == 0.0; });
 }
 
-// The frames from which on everything must be back, until the next impact.
+// Judges the frames from which on all joints must be back, until the next impact.
 void judge(const CheckInput& in, int first, int last, MarginFold& fold) {
   for (int frame = first; frame <= last; ++frame) {
     if (!is_left_alone(in.motion.response, frame)) continue;

@@ -1,6 +1,6 @@
-// translation_pop: a node of a clip is elsewhere for a key or two, or from one key on, while it hardly moves around
-// that (lone_steps.h). Lengths are those of the model at rest in the world, and small ones are judged by the size of
-// the figure, as files have other units than metres.
+// translation_pop: a node of a clip jumps to another place for a key or two, or for good, while it hardly moves around
+// that time (lone_steps.h). Lengths are those of the model at rest in the world. They are judged relative to the
+// figure's size, because not all files use metres.
 #include <algorithm>
 
 #include "checks/clip_figure.h"
@@ -11,9 +11,9 @@ namespace contort {
 
 namespace {
 
-constexpr double kBlipOfFigure = 0.01;  // 2 cm of a figure of 2 m: what people see. No shipped clip has such a blip
+constexpr double kBlipOfFigure = 0.01;  // 2 cm of a figure of 2 m, which people see. No shipped clip has such a blip
 constexpr double kJumpOfFigure = 0.05;
-constexpr double kLeapOfFigure = 0.5;  // that, in one step, is a pop in fast motion, too
+constexpr double kLeapOfFigure = 0.5;  // a step of half the figure's size is a pop even in fast motion
 
 bool moves_place(const AssetChannel& channel) {
   return channel.path == ChannelPath::translation && channel.times_s.size() > 1;
@@ -26,7 +26,7 @@ std::vector<Vec3> places(const ClipInput& in, const ClipFigure& figure, const As
   return out;
 }
 
-// A lone node has no size; the way that it goes stands in.
+// The size of the node's path. A lone node has no size of its own, so this is used instead.
 double way_m(const std::vector<Vec3>& path) {
   Vec3 low = path.front(), high = path.front();
   for (const Vec3& place : path) low = glm::min(low, place), high = glm::max(high, place);

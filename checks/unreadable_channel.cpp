@@ -1,5 +1,5 @@
-// unreadable_channel: a channel of a clip that the reader had to leave out. What is left may look right and is not what
-// the file was to say.
+// unreadable_channel: the reader had to leave out a channel of a clip. The rest may look right, but is not the motion
+// that the file describes.
 #include <algorithm>
 
 #include "checks/clip_faults.h"
@@ -30,7 +30,7 @@ std::vector<const AssetFault*> faults_of(const Asset& asset, const AssetClip& cl
 ClipCheckResult unreadable_channel_in_clip(const ClipInput& in) {
   ClipCheckResult result{static_cast<int>(in.clip.channels.size()), "the clip has no channel", {}};
   for (const AssetFault* fault : faults_of(in.asset, in.clip)) {
-    if (fault->key >= 0) continue;  // read all the same, and judged by quaternion_length
+    if (fault->key >= 0) continue;  // the channel was read anyway, and quaternion_length judges it
     ++result.subjects;
     KeyFinding finding = finding_of(in.asset, *fault, -1.0);
     const double tolerance = tolerance_of(in.settings, "unreadable_channel", finding.subject);

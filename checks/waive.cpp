@@ -18,7 +18,7 @@ Waived waive(const std::vector<Waiver>& waivers, const std::vector<Finding>& fin
              std::string_view today) {
   Waived out{std::vector<int>(findings.size(), -1), std::vector<WaiverUse>(waivers.size())};
   for (std::size_t w = 0; w < waivers.size(); ++w) {
-    out.uses[w].expired = !today.empty() && waivers[w].expires < today;  // days sort as texts
+    out.uses[w].expired = !today.empty() && waivers[w].expires < today;  // dates compare like texts
     for (std::size_t f = 0; f < findings.size(); ++f) {
       const std::string_view phase = phases.empty() ? std::string_view() : phase_name(phases[f]);
       if (out.by[f] >= 0 || !is_meant(waivers[w], findings[f], phase)) continue;

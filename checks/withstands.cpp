@@ -13,16 +13,18 @@ namespace contort {
 
 namespace {
 
-constexpr double kTouches_m = 0.02;     // above the lowest point: soles at rest are not all at the same height
-constexpr double kStill_m_s = 0.2;      // of the centre of mass; a figure that walks is judged as one at rest
-constexpr int kDirections = 64;         // of normals of the support's edge: 0.1 % of a round one
-constexpr double kSidelong = 1e-3;      // cosine of an edge that a push does not come to
+// Points up to this far above the lowest one touch the ground: soles at rest differ in height.
+constexpr double kTouches_m = 0.02;
+// Speed of the centre of mass below which a figure stands still; faster figures are judged by the support at rest.
+constexpr double kStill_m_s = 0.2;
+constexpr int kDirections = 64;  // number of normals that approximate the edge of the support, to 0.1 % for a round one
+constexpr double kSidelong = 1e-3;  // edges whose cosine to the push is smaller are ignored: a push does not reach them
 constexpr double kGravity_m_s2 = 9.81;  // g
 
 struct Balance {
   Vec3 com_m{0.0};
-  double height_m = 0.0;  // of it above the lowest point
-  double room_m = 0.0;    // of it inside the edge of the support, < 0 outside
+  double height_m = 0.0;  // height of the centre of mass above the lowest point
+  double room_m = 0.0;    // distance of the centre of mass from the edge of the support along the push, < 0 outside
 };
 
 std::vector<Rigid> placed(const Character& character, const Rigid& root, std::span<const double> row) {
@@ -44,13 +46,13 @@ Vec3 com_of(const Character& character, std::span<const Rigid> world) {
   return sum / mass_of(character);
 }
 
-// The horizontal direction of a vector; forward where it has none.
+// The horizontal direction of a vector; forward if it has none.
 Vec3 level(const Vec3& v) {
   const double size = std::sqrt(v.x * v.x + v.z * v.z);
   return size > 0.0 ? Vec3(v.x / size, 0.0, v.z / size) : Vec3(0.0, 0.0, 1.0);
 }
 
-// The lowest points of all colliders.
+// The lowest points of all colliders, up to kTouches_m above the very lowest.
 std::vector<Vec3> low_points(const Character& character, std::span<const Rigid> world) {
   std::vector<Vec3> points;
   for (const Collider& collider : character.colliders()) {
@@ -63,8 +65,8 @@ std::vector<Vec3> low_points(const Character& character, std::span<const Rigid> 
   return points;
 }
 
-// The way from a point to the edge of a convex hull: each edge is as far as the hull reaches across it, divided by the
-// cosine between its normal and the way.
+// The distance from a point to the edge of a convex hull along a direction: for each edge, its normal distance divided
+// by the cosine between normal and direction.
 double room_in(std::span<const Vec3> support, const Vec3& point, const Vec3& direction) {
   double room_m = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kDirections; ++i) {

@@ -21,7 +21,7 @@ struct AcceptedFinding {
   std::string joint;  // the finding's subject
   std::string reason;
 
-  // The key by which findings are recognised: all fields except for the reason.
+  // Compares the key by which findings are recognised: all fields except for the reason.
   bool is_same(const AcceptedFinding& other) const {
     return file == other.file && clip == other.clip && check == other.check && joint == other.joint;
   }

@@ -23,21 +23,21 @@ namespace {
 
 using json_fields::Json;
 
-// A failure that counts, as its bucket has it.
+// A failure that counts, with the data of its bucket.
 struct AgainstRow {
   Case minimal;
   std::string path;
   bool is_worse = false;
 };
 
-// "0.1.0 0123456789abcdef"
+// Returns text such as "0.1.0 0123456789abcdef".
 Result<std::string> build_text(const std::string& version, const std::string& path) {
   const Result<std::string> bytes = read_file(path);
   if (!bytes) return bytes.issue();
   return version + " " + content_id(*bytes).substr(0, 16);
 }
 
-// A name without a slash is looked for in the folders of PATH, as shells do; what is not there stays as it is.
+// Searches for a name without a slash in the folders of PATH, as shells do. A name that is not found stays unchanged.
 std::string program_path(const std::string& name) {
   const char* path = std::getenv("PATH");
   if (name.find('/') != name.npos || path == nullptr) return name;
@@ -146,12 +146,12 @@ Result<std::string> own_build() { return build_text(CONTORT_VERSION, "/proc/self
 
 namespace {
 
-// Two builds to compare: how the base is started, and how each is named.
+// The two builds of a comparison: the way to start the base, and their names.
 struct Pair {
   std::vector<std::string> command;
   std::string base;
   std::string build;
-  MeasureHello hello;  // of the base
+  MeasureHello hello;  // hello of the base
 };
 
 Result<Pair> pair_of_contorts(const std::string& base, const WorkerLimits& limits, const Context& context) {
@@ -221,7 +221,7 @@ Result<Done> check_pair(const Corpus& corpus, const std::optional<AgainstConfig>
 }
 
 Result<Done> check_same_pair(std::span<const Corpus> corpora) {
-  std::optional<std::string> pair;  // of all runs so far; "": no comparison
+  std::optional<std::string> pair;  // pair of all runs so far; "": no comparison
   std::vector<Issue> damaged;
   for (const Corpus& corpus : corpora)
     for (const RunRecord& run : runs_of(corpus, damaged)) {
@@ -237,7 +237,7 @@ Result<Done> check_same_pair(std::span<const Corpus> corpora) {
 
 namespace {
 
-constexpr std::size_t kMostRows = 20;  // that are printed; the others are only counted
+constexpr std::size_t kMostRows = 20;  // greatest number of printed rows; the others are only counted
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// contort fuzz --against: the base, the corpus of a pair of builds, and the rows about what differs
+// contort fuzz --against: the base, the corpus of a pair of builds, and the rows about differences
 // (docs/reference/against.md).
 #pragma once
 
@@ -15,13 +15,13 @@ namespace contort::cli {
 
 struct AgainstOptions {
   std::string base;        // the other program, a path or a name in PATH; "": no comparison
-  bool moved = false;      // motions that merely differ gate, too
+  bool moved = false;      // motions that only differ gate too
   double tolerance = 0.1;  // depth below which a failure of one build alone does not count
 };
 
 void add_against_options(CLI::App& command, AgainstOptions& options);
 
-// Starts the base once to see that it answers; nothing without --against. Codes file.unreadable, against.*.
+// Starts the base once to check that it answers. Returns nothing without --against. Codes file.unreadable, against.*.
 Result<std::optional<AgainstConfig>> choose_base(const AgainstOptions& options, const WorkerLimits& limits,
                                                  const Context& context);
 
@@ -31,11 +31,10 @@ Result<std::string> own_build();
 // "contort-out/against-0123abcd": the corpus of this pair of builds.
 std::string folder_of_pair(const AgainstConfig& against);
 
-// Refuses a corpus that is not of this pair of builds, and without a comparison one that is of any. Code
-// against.other_corpus.
+// Refuses a corpus of another pair of builds; without a comparison, a corpus of any pair. Code against.other_corpus.
 Result<Done> check_pair(const Corpus& corpus, const std::optional<AgainstConfig>& against);
 
-// Refuses to put runs of different pairs of builds, or of a pair and of no comparison, into one corpus. Code
+// Refuses to merge runs of different pairs of builds, or of a pair and of none, into one corpus. Code
 // against.other_corpus.
 Result<Done> check_same_pair(std::span<const Corpus> corpora);
 
@@ -43,7 +42,7 @@ Result<Done> check_same_pair(std::span<const Corpus> corpora);
 void print_comparison(const RunResult& result, const AgainstConfig& against,
                       const Sources& sources);
 
-// The same as a JSON object.
+// The same as print_comparison, as a JSON object.
 std::string comparison_json(const RunResult& result, const AgainstConfig& against,
                             const Sources& sources);
 
@@ -57,7 +56,7 @@ bool comparison_gates(const RunResult& result, const AgainstOptions& options);
 // other cases.
 std::string sentence_about_base(const Provenance& from);
 
-// The base refused every case, so that nothing was compared.
+// Returns true if the base refused every case, so that nothing was compared.
 bool compared_nothing(const RunResult& result);
 
 }  // namespace contort::cli

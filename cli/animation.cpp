@@ -32,12 +32,12 @@ std::size_t common_prefix(const std::string& a, const std::string& b) {
 
 Result<Animation> read_take(const std::string& path, const AnimationOptions& options) {
   if (const auto other = other_kind(path, beginning_of(path, kKindBytes), kAnimationFiles);
-      other && format_of_bytes(beginning_of(path, kKindBytes)) == FileFormat::none)  // before its skeleton is looked for
+      other && format_of_bytes(beginning_of(path, kKindBytes)) == FileFormat::none)  // before searching for a skeleton
     return Issue{"amc.wrong_kind", "", other->text};
   const Result<std::string> asf =
       options.skeleton.empty() ? find_skeleton(path) : Result<std::string>(options.skeleton);
   if (!asf) return asf.issue();
-  if (options.skeleton.empty())  // nobody named it: it may be a link that came with the take
+  if (options.skeleton.empty())  // a skeleton that was found automatically may be a link that came with the take
     if (const Result<Done> inside = check_inside(fs::path(*asf).parent_path().string(), *asf); !inside)
       return inside.issue();
   Result<AsfSkeleton> skeleton = read_asf(*asf);
@@ -120,7 +120,7 @@ Result<std::string> find_skeleton(const std::string& amc_path) {
     if (ending_of(entry.path()) == ".asf") found.push_back(entry.path().string());
   if (found.size() == 1) return found.front();
   std::size_t best = 0;
-  std::vector<std::string> nearest;  // of those that begin most alike
+  std::vector<std::string> nearest;  // names with the longest common beginning
   for (const std::string& path : found) {
     const std::size_t length = common_prefix(fs::path(path).stem().string(), amc.stem().string());
     if (length > best) nearest.clear(), best = length;
@@ -134,13 +134,13 @@ Result<std::string> find_skeleton(const std::string& amc_path) {
 
 namespace {
 
-// Whether people look for motion in a file of this kind, so that leaving it out without a word would mislead them.
+// Returns true for files that people take for animations; leaving such a file out without a message would mislead them.
 bool may_be_taken_for_motion(const fs::path& path) {
   const std::string ending = ending_of(path);
   return ending != ".html" && ending != ".htm" && has_advice(beginning_of(path.string(), kKindBytes));
 }
 
-// Lists the files in a folder and in those below it. Links to folders are not followed, as they may lead in a circle.
+// Lists the files in a folder and below it. Links to folders are not followed, because they may form a circle.
 void look_into(const std::string& folder, bool has_character, Expanded& out) {
   std::error_code error;
   std::vector<std::string> folders;

@@ -13,7 +13,7 @@
 
 namespace contort::cli {
 
-// An .amc has limits of its own, in its skeleton.
+// An animation as it was read. An .amc has limits of its own, in its skeleton.
 struct Take {
   AsfSkeleton skeleton;
   AmcMotion motion;
@@ -22,7 +22,7 @@ struct Take {
 struct Animation {
   Asset asset;
   std::optional<Take> take{};
-  std::optional<JointTable> table{};  // whose clip in the asset has no channels
+  std::optional<JointTable> table{};  // a table, whose clip in the asset has no channels
 };
 
 struct AnimationOptions {
@@ -39,7 +39,7 @@ inline constexpr char kAnimationFiles[] = "an animation (.glb, .gltf, .vrm, .vrm
 // Metres in a unit of length; 0 if the name is not a unit of length.
 double metres_in(const std::string& unit);
 
-bool is_animation(const std::string& path);  // by its contents, else by its ending
+bool is_animation(const std::string& path);  // by its contents, otherwise by its ending
 bool is_table(const std::string& path);      // true for a table of joint values, which are a motion of a character; by
                                              // its contents, too
 
@@ -48,7 +48,7 @@ std::optional<Issue> other_than_animation(const std::string& path, const std::st
 
 Result<Animation> read_animation(const std::string& path, const AnimationOptions& options);
 
-// The only .asf in the folder of an .amc; of several, the one whose name begins most like the .amc's. Code
+// The only .asf in the folder of an .amc; of several, the one whose name has the longest beginning in common. Code
 // check.no_skeleton if there is none, or if several have equally similar names.
 Result<std::string> find_skeleton(const std::string& amc_path);
 
@@ -60,11 +60,11 @@ struct Unreadable {
 struct Expanded {
   std::vector<std::string> files;
   std::vector<Unreadable> unreadable;  // folders that cannot be listed
-  std::vector<Unreadable> skipped;     // files in folders that are no animation, but of a kind that people take for one
+  std::vector<Unreadable> skipped;  // files in folders that are no animations, but of a kind that people take for one
 };
 
-// Files as they are named, and folders as all animations in them and below, sorted by path, whatever kind of file these
-// are; with a character also tables that have a column of times.
+// Returns files as they are named, and for folders all animations in them and below, sorted by path. With a character
+// it also returns tables that have a column of times.
 Expanded expand_animations(const std::vector<std::string>& paths, bool has_character);
 
 }  // namespace contort::cli

@@ -1,4 +1,4 @@
-// contort audit: every action alone, over all that it declares.
+// contort audit: plays every action alone, over all its declared parameter values.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -25,13 +25,13 @@ struct AuditCommand {
   LimitOptions limits;
   bool json = false;
   std::string dynamics = "kinematic";  // a name of mode_names()
-  std::string folder;  // for the worst spec of each row; "": none
-  std::string page;    // the folder of the page; "": none
+  std::string folder;  // folder for the worst spec of each row; "": none
+  std::string page;    // folder of the page; "": none
 };
 
 double percent(int count, int of) { return 100.0 * count / std::max(1, of); }
 
-// "mech/arm_left (mech_arm_slim)", "human/arm_left, rifle at hand_right/grip".
+// Text such as "mech/arm_left (mech_arm_slim)" or "human/arm_left, rifle at hand_right/grip".
 std::string place_of(const AuditRow& row) {
   const std::string object = object_of(row);
   return row.character.name + "/" + row.slot + (row.character.parts.empty() ? "" : " (" + row.part + ")") +
@@ -95,7 +95,7 @@ std::string command_of(const AuditCommand& options, const Context& context) {
   return command + " --page " + shell_quoted(options.page);
 }
 
-// Findings say more than motions that were not judged.
+// Findings take precedence over motions that were not judged.
 Exit exit_code_of(const std::vector<AuditRow>& rows) {
   if (std::ranges::any_of(rows, [](const AuditRow& row) { return !row.findings.empty(); })) return kFindings;
   return std::ranges::any_of(rows, [](const AuditRow& row) { return row.refused > 0; }) ? kInconclusive : kClean;

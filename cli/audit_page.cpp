@@ -13,7 +13,7 @@ namespace contort::cli {
 
 namespace {
 
-constexpr std::size_t kMostReasonsOfRow = 3;  // of refusals
+constexpr std::size_t kMostReasonsOfRow = 3;  // greatest number of reasons for refusals in a row
 
 std::string counts_text(const std::map<std::string, int>& counts) {
   std::string text;
@@ -37,7 +37,7 @@ AuditPageRow page_row(const AuditRow& row, bool has_picture) {
   return out;
 }
 
-// Answers whether pictures are there.
+// Returns true if there are pictures.
 bool draw_pictures(const std::string& folder, const std::vector<AuditRow>& rows, Context& context) {
   if (context.gl == "none") return false;
   std::vector<StripFile> strips;
@@ -70,7 +70,7 @@ std::string file_name_of(const AuditRow& row) {
 
 namespace {
 
-// "refused: the angle is too large 12, there are too many swings 3"
+// Text such as "refused: the angle is too large 12, there are too many swings 3".
 std::string refusals_text(const AuditRow& row) {
   if (row.refused == 0) return "";
   std::string text;

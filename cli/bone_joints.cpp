@@ -13,7 +13,8 @@ namespace {
 
 std::array<double, 4> xyzw(const Quat& q) { return {q.x, q.y, q.z, q.w}; }
 
-// The place of each node at rest in the world, in the file's unit. Scales move what hangs on a node, and turn nothing.
+// The place of each node at rest in the world, in the file's unit. Scales move the children of a node, but do not
+// rotate them.
 std::vector<Rigid> node_places(const Asset& asset) {
   const std::vector<Mat4> world = world_of(asset);
   std::vector<Rigid> places(asset.nodes.size());
@@ -32,8 +33,8 @@ Result<Character> built(const CutFigure& cut) {
   return build_character({cut.character.name, {}, {}}, library);
 }
 
-// The import's joints have the figure's axes at rest, and metres; a guest's have those of their nodes, and the file's
-// unit.
+// Converts joints. Those of the import have the figure's axes at rest and metres; those of a guest have the axes of
+// their nodes and the file's unit.
 class BoneJoints {
  public:
   BoneJoints(const Asset& asset, const Imported& imported, const GuestCharacter& figure)
@@ -82,7 +83,7 @@ class BoneJoints {
     return out;
   }
 
-  // A range holds the rest pose, which is 0.
+  // A range must contain the rest pose, which is 0.
   static void turn_limits(const Quat& turn, GuestJoint& joint) {
     joint.axis = turn * joint.axis;
     if (joint.swing_axis) joint.swing_axis = turn * *joint.swing_axis;

@@ -6,7 +6,7 @@
 
 namespace contort::cli {
 
-// Joints are named like the model's nodes and have their frames at rest, in the file's axes and unit. Ranges, slots and
+// Joints have the names of the model's nodes and their frames at rest, in the file's axes and unit. Ranges, slots and
 // colliders are those of the import. A bone that turns by two hinges, such as an ankle, becomes a ball without limits.
 // Codes of build_character.
 Result<GuestCharacter> joints_of_bones(const Asset& asset, const Imported& imported);

@@ -19,7 +19,7 @@ std::function<void(const FailingCase&)> CaseLog::listener() {
   return [this](const FailingCase& failing) { add(failing); };
 }
 
-// To the end at once: whoever follows the file, or kills the run, has whole lines.
+// Flushes each line, so that readers see whole lines even if the run is killed.
 void CaseLog::add(const FailingCase& failing) {
   using json_fields::Json;
   Json families = Json::array();

@@ -11,10 +11,10 @@ namespace contort::cli {
 
 class CaseLog {
  public:
-  // Without a path it keeps nothing. A run that goes on adds to what is there. Code file.unwritable.
+  // Opens the log; without a path it writes nothing. A resumed run appends to the file. Code file.unwritable.
   static Result<CaseLog> open(const std::string& path, bool goes_on);
 
-  // The listener that writes them; empty where nothing is kept. The log has to stay where it is.
+  // The listener that writes cases; empty if nothing is written. The log must stay in place.
   std::function<void(const FailingCase&)> listener();
 
   // Returns true if every line was written.

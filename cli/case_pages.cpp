@@ -27,9 +27,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kMostSeconds = 60;  // for the motions of one bucket
+constexpr int kMostSeconds = 60;  // time limit for the motions of one bucket
 
-// The files of a bucket that are cases of their own.
+// Reads the case files of a bucket.
 Result<std::string> data_of(const CasePage& page, Generator& generator, const CheckSettings& settings) {
   std::vector<std::pair<std::string, Case>> cases;
   for (const auto& [role, file] :
@@ -46,7 +46,7 @@ Result<std::string> data_of(const CasePage& page, Generator& generator, const Ch
   return case_data(page.key, shown, generator, settings, page.strip);
 }
 
-// ---- what a file was made of
+// ---- the inputs of a file
 
 std::string stamp_of(const CasePage& page, const std::string& surroundings) {
   std::string made_of = surroundings + "\n" + page.key + "\n" + page.strip;
@@ -58,7 +58,7 @@ std::string stamp_of(const CasePage& page, const std::string& surroundings) {
   return content_id(made_of).substr(0, 16);
 }
 
-// A page that says why a case cannot be shown has no stamp: it is tried again.
+// A page with only a reason has no stamp, so that it is tried again.
 bool is_there(const std::string& folder, const CasePage& page, const std::string& stamp) {
   const Result<std::string> text = read_file(folder + "/cases/" + page.key + ".js");
   return text && stamp_of_page_call(text->substr(0, text->find('\n') + 1)) == stamp;
@@ -75,7 +75,7 @@ void warn(const std::string& what, const Issue& issue) {
   std::fprintf(stderr, "contort: %s: %s\n", what.c_str(), to_line(issue).c_str());
 }
 
-// A case that cannot be shown says why, here and in its file.
+// Prints the reason for which a case cannot be shown, and writes it to the case's file.
 void write_problem(const std::string& folder, const std::string& key, const Issue& issue) {
   warn("the report cannot show " + key, issue);
   if (const Result<Done> written = write_case(folder, key, case_problem(key, issue.text), ""); !written)
@@ -113,7 +113,7 @@ Result<Done> write_library(const std::string& path, const Generator& generator, 
   return script ? write_file(path, *script) : script.issue();
 }
 
-// In processes: a case that crashes this build, or never ends in it, is not worth the report.
+// Runs in child processes, so that a case that crashes this build, or never ends in it, does not lose the report.
 void write_all(const std::vector<Stamped>& pages, const std::string& folder, Generator& generator,
                const CheckSettings& settings) {
   const ProgressLine line;

@@ -8,16 +8,16 @@
 
 namespace contort::cli {
 
-// A bucket whose motions can be looked at.
+// A bucket whose motions the viewer can show.
 struct CasePage {
-  std::string key;     // file name without its end
+  std::string key;     // file name without its ending
   std::string folder;  // the bucket's folder
   std::string minimal, original, worst;  // file names in the folder; "" without a file
   std::string strip{};                   // path of the film strip relative to the page; "" without a strip
 };
 
 // Writes DIR/cases/<key>.js for each, on all cores, and DIR/viewer. A file that the same program made from the same
-// inputs is kept. If a file cannot be made, that is a warning, and the page says so in its place.
+// inputs is kept. If a file cannot be made, a warning is printed, and the page shows the reason in its place.
 void write_case_pages(const std::vector<CasePage>& pages, const std::string& folder, Generator& generator,
                       Context& context);
 

@@ -54,7 +54,8 @@ Json params_json(const std::vector<ParamDef>& defs) {
   return params;
 }
 
-// An action's parameters can depend on the part: shown for each part that can do it. `file` as in OfferedAction.
+// Lists an action for each part that can perform it, because its parameters may depend on the part. `file` as in
+// OfferedAction.
 Json list_action(Generator& generator, const std::string& name, int file) {
   Json out = {{"name", name}, {"params_on", Json::object()}};
   for_variants(*generator.manifest().library, [&](const Character& character) {
@@ -74,7 +75,7 @@ Json list_action(Generator& generator, const std::string& name, int file) {
 
 }  // namespace
 
-// The generator's own actions first, then those of files. A file's action may have the name of another one's.
+// Lists the generator's own actions first, then those of files. An action of a file may have the name of another one.
 Json list_actions(Generator& generator) {
   const std::vector<ActionDesc>& files = generator.manifest().library->actions;
   Json out = Json::array();
@@ -93,7 +94,7 @@ Json list_checks(Generator&) {
   return out;
 }
 
-// Each as the file that a profile of one's own may start from.
+// Lists each profile in the form of a file, from which users can start their own.
 Json list_profiles(Generator&) {
   Json list = Json::array();
   for (const Profile& profile : built_in_profiles())

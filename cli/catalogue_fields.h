@@ -8,7 +8,7 @@ namespace contort::cli {
 
 using json_fields::Json;
 
-// Arrays of objects with a name and a help each.
+// Arrays of objects, each with a name and a help text.
 Json list_characters(Generator& generator);
 Json list_parts(Generator& generator);
 Json list_actions(Generator& generator);

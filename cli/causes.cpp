@@ -1,4 +1,4 @@
-// contort causes: the failures of a corpus, grouped by what causes them.
+// contort causes: lists the failures of a corpus, grouped by cause.
 #include "cli/causes.h"
 
 #include <CLI/CLI.hpp>
@@ -32,7 +32,7 @@ std::string joined(const std::set<std::string>& names) {
   return text;
 }
 
-// A path that works in whatever folder the command is pasted.
+// An absolute path, so that a command with it works in every folder.
 std::string absolute(const std::string& path) {
   std::error_code error;
   const std::filesystem::path whole = std::filesystem::absolute(path, error);

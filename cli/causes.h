@@ -19,8 +19,8 @@ struct Context;
 // and set the exit code for bad input.
 std::vector<CauseMember> unfixed_members(const Corpus& corpus, Context& context);
 
-// The ids of the causes that a user means by `prefix`: those whose ids begin like this; if there are none, those of the
-// failures whose ids, or folders' names, do. Users copy both kinds of ids from one list.
+// The ids of the causes that match `prefix`: causes whose ids begin with it; if there are none, causes of failures
+// whose ids or folder names begin with it. Users copy both kinds of ids from one list.
 std::set<std::string> causes_named(std::span<const CauseMember> members, const std::string& prefix);
 
 // Code corpus.no_cause.
@@ -29,11 +29,11 @@ Issue no_such_cause(const std::string& prefix);
 struct CausesText {
   std::int64_t cases = 0;       // number of cases of the runs
   std::size_t most = 12;        // rows that are printed
-  std::string corpus{};         // for the command that shows the others
+  std::string corpus{};         // for the command that lists all causes
   const Sources& sources;
 };
 
-// Two lines for each cause: its headline, marked NEW, MORE or RARE (CauseNews), and how severe and frequent it is with
+// Two lines for each cause: its headline, marked NEW, MORE or RARE (CauseNews), then its severity and frequency with
 // the command that shows its deepest case again. One line counts the causes that are left out, and one explains a mark.
 std::string causes_text(std::span<const CauseRow> rows, const CausesText& about);
 

@@ -1,4 +1,4 @@
-// contort check: a spec, or an animation made elsewhere.
+// contort check: checks a spec, or an animation made elsewhere.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -29,7 +29,7 @@ using json_fields::Json;
 
 struct SpecOptions {
   std::string level;
-  std::string known;  // a corpus whose rules are asked; "": the motion is made and checked
+  std::string known;  // a corpus whose rules are applied; "": the motion is made and checked
 };
 
 Json spec_json(const std::string& file, const Execution& made, const CheckSettings& settings, const Evaluation& evaluation,
@@ -53,7 +53,7 @@ void print_judged(const Evaluation& evaluation, const Character& character) {
   for (const std::string& line : judged_lines(summary)) std::printf("%s\n", line.c_str());
 }
 
-// A program under test that ends while it makes the motion is the one finding that there is.
+// Reports the end of a program under test during the motion. It is the only finding.
 void tell_ending(const std::string& file, const Spec& spec, const Ending& ending, bool as_json, Context& context) {
   const Expectation shown = ending_case(spec, ending).expect;
   context.exit_code = kFindings;
@@ -106,7 +106,7 @@ void check_spec(const std::string& file, const std::string& level, bool as_json,
   std::printf("\n");
 }
 
-// An option that was given and that a spec has no use for: it says its character, rate and limits itself.
+// Returns an option on the command line that has no meaning for a spec, which has its own character, rate and limits.
 std::string option_for_animations(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options())
     if (option->count() > 0 && !option->get_positional() && option->get_name() != "--json" &&
@@ -120,7 +120,8 @@ bool is_a_folder(const std::string& path) {
   return std::filesystem::is_directory(path, error);
 }
 
-// Says what a plain file is that is neither a spec nor an animation. A .json is for the reader of specs in any case.
+// Returns an issue with the kind of a plain file that is neither a spec nor an animation. A .json is always left to the
+// reader of specs.
 std::optional<Issue> neither(const std::string& file) {
   const std::string beginning = beginning_of(file, kKindBytes);
   const std::size_t first = beginning.find_first_not_of(" \t\r\n");
@@ -128,7 +129,7 @@ std::optional<Issue> neither(const std::string& file) {
   return other_than_animation(file, "a spec or a case (JSON), or " + std::string(kAnimationFiles));
 }
 
-// Nobody should believe that an option had an effect that it had not.
+// Refuses options that would have no effect.
 Result<Done> options_fit(const ClipCheckOptions& options, const CLI::App& command) {
   if (options.all_clips) return Done{};
   const std::string& file = options.files.front();
@@ -149,7 +150,7 @@ Result<Done> options_fit(const ClipCheckOptions& options, const CLI::App& comman
   return Done{};
 }
 
-// --known CORPUS: asks the rules of the corpus instead of making the motion.
+// --known CORPUS: applies the rules of the corpus instead of making the motion.
 void ask_rules(const std::string& file, const std::string& level, const std::string& corpus, bool as_json,
                Context& context) {
   const Result<SpecInput> input = read_spec_input(file, level);

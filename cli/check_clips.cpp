@@ -30,18 +30,18 @@ namespace {
 struct Checked {
   std::vector<ClipReport> clips;
   std::vector<Unreadable> unreadable;
-  std::vector<Unreadable> skipped;  // files of folders that only look like animations
+  std::vector<Unreadable> skipped;  // files in folders that only look like animations
   std::vector<FileRemark> remarks;
-  std::set<std::string> unmatched;  // nodes of the map that were in no file
+  std::set<std::string> unmatched;  // nodes of the map that no file has
   Touched touched;
   std::vector<WaiverUse> waivers;
   std::size_t waived = 0;
   std::set<int> accepted_by;              // entries of the accept list that accepted a finding
-  std::size_t accepted = 0;               // findings
-  std::vector<AcceptedFinding> findings;  // all of them, for a list to be written
+  std::size_t accepted = 0;               // number of accepted findings
+  std::vector<AcceptedFinding> findings;  // all findings, for writing an accept list
 };
 
-// All that does not change from file to file.
+// The inputs that are the same for all files.
 struct ClipJudging {
   const ClipCheckOptions& options;
   ClipCharacter on;
@@ -70,13 +70,13 @@ void forget_matched(const Asset& asset, std::set<std::string>& unmatched) {
   }
 }
 
-// Bodies of a robot's file are no columns: where the map says joints of the file, they need not be there.
+// A robot's map names bodies too. Tables have no columns for those, so they are not reported as missing.
 void forget_columns(const JointTable& table, const JointMap& map, std::set<std::string>& unmatched) {
   if (!map.values.empty()) unmatched.clear();
   for (const TableColumn& column : table.columns) unmatched.erase(column.name);
 }
 
-// Leaves those findings that no waiver hides.
+// Removes the findings that waivers hide.
 template <class Item, class FindingOf>
 void keep_open(const CheckSettings& settings, std::vector<Item>& items, FindingOf finding_of, Checked& out) {
   std::vector<Finding> findings;
@@ -88,7 +88,7 @@ void keep_open(const CheckSettings& settings, std::vector<Item>& items, FindingO
   add_uses(waived.uses, out.waivers);
 }
 
-// Leaves those findings that the accept list does not have.
+// Removes the findings that are in the accept list.
 template <class Item, class FindingOf>
 void keep_unknown(const ClipJudging& with, const ClipReport& report, std::vector<Item>& items, FindingOf finding_of,
                   Checked& out) {
@@ -158,7 +158,7 @@ Result<ClipReport> check_clip(const std::string& file, const Animation& animatio
   return report;
 }
 
-// Lets the map and the limits hold for nodes that have other prefixes in this file. Their number.
+// Applies the map and the limits to nodes that have other prefixes in this file. Returns the number of these nodes.
 std::size_t take_similar_names(const Asset& asset, ClipJudging& with, std::set<std::string>& unmatched) {
   const std::map<std::string, std::string> similar = similar_names(asset, with.on.map.joints);
   for (const auto& [node, name] : similar) {
@@ -200,7 +200,7 @@ void append(std::vector<T>& from, std::vector<T>& to) {
   to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
 }
 
-// Adds what was found in one file to what was found in those before it.
+// Adds the results of one file to those of earlier files.
 void add_file(Checked file, Checked& out) {
   append(file.clips, out.clips);
   append(file.unreadable, out.unreadable);
@@ -213,7 +213,7 @@ void add_file(Checked file, Checked& out) {
   out.accepted_by.merge(file.accepted_by);
 }
 
-// In parallel, with the same result as one after the other.
+// Checks the files in parallel. The result is the same as without threads.
 void check_files(const std::vector<std::string>& files, const ClipJudging& with, Checked& out) {
   std::vector<Checked> pieces(files.size());
   std::atomic<std::size_t> next = 0;
@@ -233,13 +233,13 @@ void check_files(const std::vector<std::string>& files, const ClipJudging& with,
   for (Checked& piece : pieces) add_file(std::move(piece), out);
 }
 
-// For the last line, where there are waivers or an accept list at all.
+// For the last line, if there are waivers or an accept list.
 std::string waived_count(const CheckSettings& settings, const ClipCheckOptions& options, const Checked& checked) {
   return (settings.waivers.empty() ? "" : " waived=" + std::to_string(checked.waived)) +
          (options.accept_list.empty() ? "" : " accepted=" + std::to_string(checked.accepted));
 }
 
-// Whether nothing can be said of all that was to be checked.
+// Returns true if a part of the input could not be judged.
 bool is_incomplete(const ClipCheckOptions& options, const Checked& checked) {
   return !checked.unreadable.empty() && (!options.allow_unreadable || checked.clips.empty());
 }
@@ -248,7 +248,7 @@ std::string count_unreadable(const Checked& checked, std::size_t files) {
   return std::to_string(checked.unreadable.size()) + " of " + std::to_string(files) + " files cannot be read";
 }
 
-// Entries of the accept list that no finding matches: what they say is mended, or was never there.
+// Prints entries of the accept list that no finding matches: they are repaired, or are mistakes.
 void print_waivers(const CheckSettings& settings, const AcceptList& accept, const Checked& checked) {
   for (const std::string& line : waiver_lines(settings, checked.waivers)) std::printf("%s\n", line.c_str());
   for (std::size_t i = 0; i < accept.accepted.size(); ++i)
@@ -276,7 +276,7 @@ void print_one(const ClipJudging& with, const Checked& checked) {
   print_result(count_findings(checked.clips), checked.clips.size(), "", waived_count(settings, options, checked));
 }
 
-// Folders may hold thousands of files that are no animations.
+// Prints only some names, because folders may have thousands of files that are no animations.
 void print_skipped(const std::vector<Unreadable>& skipped) {
   constexpr std::size_t kMostLines = 20;
   for (std::size_t i = 0; i < std::min(skipped.size(), kMostLines); ++i)
@@ -306,7 +306,7 @@ void print_all(const ClipJudging& with, const Checked& checked, std::size_t file
                    (checked.skipped.empty() ? "" : " skipped=" + std::to_string(checked.skipped.size())));
 }
 
-// Mistakes that stop the command before anything is printed: nothing to judge, or a map that does not fit.
+// Returns mistakes that stop the command before anything is printed: nothing to judge, or a map that does not fit.
 Result<Done> judge_input(const ClipCheckOptions& options, const Checked& checked) {
   const auto matches_nothing = [](const Unreadable& file) { return file.issue.code == "check.nothing_matches"; };
   const bool was_read = !checked.clips.empty() || std::ranges::any_of(checked.unreadable, matches_nothing);
@@ -324,7 +324,7 @@ Result<Done> judge_input(const ClipCheckOptions& options, const Checked& checked
   return Issue{"check.no_clip", "", where + " holds no animation" + skipped};
 }
 
-// The same for options and rules that touched nothing, and for clips of which nothing was judged.
+// Does the same for options and rules without effect, and for clips of which nothing was judged.
 Result<Done> judge_effects(const ClipCheckOptions& options, const std::string& settings_file,
                            const CheckSettings& settings, const Checked& checked) {
   if (checked.clips.empty()) return Done{};
@@ -360,7 +360,7 @@ void check_clips(const ClipCheckOptions& options, Context& context) {
     checked.unreadable = std::move(expanded.unreadable), checked.skipped = std::move(expanded.skipped);
   }
   const std::size_t count = files.size() + checked.unreadable.size();
-  if (!options.map.empty())  // an own map may say more than the file has
+  if (!options.map.empty())  // a user's map may have more nodes than the file
     for (const auto& entry : with.on.map.joints) checked.unmatched.insert(entry.first);
   check_files(files, with, checked);
   if (const Result<Done> fit = judge_input(options, checked); !fit)

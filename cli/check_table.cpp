@@ -24,7 +24,7 @@ ClipMotion motion_of_table(const ValuesMotion& made, const JointTable& table) {
   return out;
 }
 
-// A map that was written by hand may say which column is which joint in the same way as for nodes.
+// Reads the joints of columns from a map that was written by hand, which has the same form as for nodes.
 FileJoints joints_of_map(const JointMap& map) {
   FileJoints out = map.values;
   if (out.empty())
@@ -32,7 +32,7 @@ FileJoints joints_of_map(const JointMap& map) {
   return out;
 }
 
-// The greatest speed of joints that turn, as for the channels of a clip.
+// Finds the greatest speed of joints that turn, as for the channels of a clip.
 void find_peak(const Character& character, const Motion& motion, double first_s, ClipSpeeds& out) {
   const double begin_s = motion.times_s.empty() ? first_s : 0.0;
   for (const Joint& joint : character.joints().subspan(1))

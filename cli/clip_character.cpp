@@ -13,7 +13,7 @@ namespace contort::cli {
 
 namespace {
 
-// The map that `import` left beside the character, or "".
+// Returns the map that `import` wrote beside the character, or "".
 Result<std::string> own_map(const std::string& character, const Context& context) {
   std::error_code error;
   for (const std::string& folder : context.sources.libraries)
@@ -50,7 +50,7 @@ Result<Done> check_joints(const ClipCharacter& on) {
   return Done{};
 }
 
-// A joint that left out so much of its node's turn has coordinates that jump where the node does not.
+// If a joint misses more of its node's rotation than this, its coordinates may jump although the node does not.
 constexpr double kNotFollowed_rad = 30.0 * kRadPerDeg;
 
 bool turns(const Joint& joint) { return joint.kind == JointKind::hinge || joint.kind == JointKind::ball; }

@@ -1,4 +1,4 @@
-// The character that clips are judged on, and which node of a file is which of its joints.
+// The character on which clips are judged, and the map from nodes of a file to its joints.
 #pragma once
 
 #include <memory>
@@ -20,21 +20,21 @@ struct ClipCharacter {
   std::string map_file;  // "" if the character has no map
 };
 
-// `name` "" for none; `map` "" for the map that `import` left beside the character, if there is one. Codes of
-// build_character and parse_joint_map, and map.unknown_joint.
+// Loads a character; `name` is "" for none. If `map` is "", the map is used that `import` wrote beside the character,
+// if there is one. Codes of build_character and parse_joint_map, and map.unknown_joint.
 Result<ClipCharacter> load_clip_character(const std::string& name, const std::string& map, Context& context);
 
-// Limits of nodes with the name of a joint that turns, or that are mapped to one.
+// Speed limits of nodes that have the name of a joint that turns, or are mapped to one.
 std::map<std::string, double> speed_limits_of(const ClipCharacter& on);
 
-// A joint goes with those that share its node's turn.
+// The joints that are judged elsewhere. Joints that share a node's rotation are treated alike.
 JudgedElsewhere judged_elsewhere(const ClipCharacter& on, const Conversion& made, const Animation& animation,
                                  const AssetClip& clip);
 
-// An issue about a node of the map.
+// Makes an issue about a node of the map.
 Issue map_issue(const std::string& node, std::string_view code, std::string text);
 
-// Names the map's file in an issue that is about the map.
+// Adds the map's file to an issue about the map.
 Issue in_map(const std::string& map, const Issue& issue);
 
 }  // namespace contort::cli

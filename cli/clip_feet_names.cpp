@@ -26,7 +26,7 @@ int hip_of(const Asset& asset, int foot, Side side) {
   return bones >= 2 ? hip : -1;
 }
 
-// The node below the foot that is called a toe, else its first child; -1 if it carries none.
+// The node below the foot that is named like a toe, otherwise its first child; -1 if it has none.
 int toe_of(const Asset& asset, int foot) {
   int first = -1;
   for (const int node : asset.order) {

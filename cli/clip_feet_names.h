@@ -7,7 +7,7 @@
 
 namespace contort::cli {
 
-// One for each side, and for each pair of legs of figures with more; none where names or places do not tell.
+// One leg for each side, and for each pair of legs of figures with more. None if names or places do not show them.
 std::vector<ClipFoot> feet_by_names(const Asset& asset);
 
 }  // namespace contort::cli

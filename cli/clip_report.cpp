@@ -41,7 +41,7 @@ const Finding* deepest_of(const DofLimits& limits) {
 
 double time_s(const ClipReport& clip, int frame) { return (frame - clip.first_frame) / clip.rate_hz; }
 
-// Angles for people.
+// The excess over the limit as text, with angles in degrees.
 std::string excess_text(const Finding& finding, int digits_of_lengths = 1) {
   const bool is_angle = finding.unit == "rad";
   if (is_angle) return decimal(-finding.worst_margin * kDegPerRad, 1) + " deg";
@@ -54,7 +54,7 @@ std::string peak_text(const ClipSpeeds& clip) {
          "-" + decimal(clip.peak_t1_s, 3) + " s";
 }
 
-// "863 of 19208 samples out of range, worst 29.7 deg at lwrist ry max, frame 191"
+// Text such as "863 of 19208 samples out of range, worst 29.7 deg at lwrist ry max, frame 191".
 std::string limits_text(const DofLimits& limits) {
   std::string text =
       std::to_string(limits.out_of_range) + " of " + std::to_string(limits.samples) + " samples out of range";
@@ -198,7 +198,7 @@ bool is_worse(const ClipReport& a, const ClipReport& b) {
 
 namespace {
 
-constexpr double kPlainTurn_rad = 1.0 * kRadPerDeg;  // left out: more than this is worth a line
+constexpr double kPlainTurn_rad = 1.0 * kRadPerDeg;  // left out: greater angles get a line of their own
 constexpr double kPlainOffset_m = 0.01;
 constexpr std::size_t kMostLines = 5;
 
@@ -216,7 +216,7 @@ void print_speed_findings(const ClipSpeeds& speeds) {
                 decimal(f.worst_t0_s, 3).c_str(), decimal(f.worst_t1_s, 3).c_str(), step_text(f).c_str());
 }
 
-// "0.500 s", or "0.467-0.500 s" of a step.
+// Text such as "0.500 s", or "0.467-0.500 s" for a step.
 std::string when_text(const KeyFinding& f) {
   return (f.t0_s < f.t1_s ? decimal(f.t0_s, 3) + "-" : "") + decimal(f.t1_s, 3) + " s";
 }
@@ -238,7 +238,8 @@ void print_motion_findings(const ClipReport& clip) {
                 decimal(clip.motion->time_s(f.worst_frame), 3).c_str());
 }
 
-// Prints what left out more than is plain, the greatest first; at most kMostLines lines, and how many are left.
+// Prints the movements that joints left out and that are greater than `plain`, the greatest first: at most kMostLines
+// lines, and the number of the others.
 void print_left_out(std::vector<LeftOut> left_out, double LeftOut::*amount, double plain,
                     const std::function<std::string(const LeftOut&)>& text) {
   std::erase_if(left_out, [&](const LeftOut& l) { return !(l.*amount > plain); });
@@ -265,7 +266,7 @@ void print_conversion(const ClipMotion& motion) {
     std::printf("  at rest: joints without a node: %s\n", some_names(motion.joints_at_rest).c_str());
 }
 
-// "; left out 12.3 deg, 0.180 m, 3 nodes", or "".
+// Text such as "; left out 12.3 deg, 0.180 m, 3 nodes", or "".
 std::string left_out_text(const ClipMotion& motion) {
   if (motion.columns > 0) return columns_text(motion);
   double turn_rad = 0.0, offset_m = 0.0;

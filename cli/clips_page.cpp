@@ -18,16 +18,16 @@ namespace contort::cli {
 namespace {
 
 constexpr std::string_view kOwnTitle = "<title>Contort check</title>";
-constexpr std::size_t kBeginning = 4096;  // of a page, which has its title there
+constexpr std::size_t kBeginning = 4096;  // bytes at the beginning of a page, which contain its title
 
-// A path that works in whatever folder a command is pasted.
+// An absolute path, so that a command with it works in every folder.
 std::string whole_path(const std::string& path) {
   std::error_code error;
   const std::filesystem::path whole = std::filesystem::absolute(path, error);
   return error ? path : whole.lexically_normal().string();
 }
 
-// The command up to its files, with the options that change what is found.
+// The command up to its files, with the options that affect the findings.
 std::string command_of(const ClipCheckOptions& options, const Context& context, const std::vector<std::string>& files) {
   std::vector<std::string> words = {"contort"};
   const auto add = [&](const char* option, const std::string& value) {

@@ -24,7 +24,7 @@ struct ClipsPageInput {
 // Code folder.other_files if the folder has files and no such page.
 Result<Done> check_clips_page(const std::string& folder);
 
-// Writes DIR/index.html and says so; nothing without --report. Code file.unwritable.
+// Writes DIR/index.html and prints its path; does nothing without --report. Code file.unwritable.
 Result<Done> write_clips_page(const ClipsPageInput& in, const Context& context);
 
 }  // namespace contort::cli

@@ -8,10 +8,10 @@
 
 namespace contort::cli {
 
-// The first few names, and how many more there are.
+// The first few names, and the number of the others.
 std::string some_names(const std::vector<std::string>& names);
 
-void print_columns(const ClipMotion& motion);        // lines below that of a clip
+void print_columns(const ClipMotion& motion);        // prints lines that follow those of a clip
 std::string columns_text(const ClipMotion& motion);  // "; 7 of 9 columns are joints"
 std::string columns_json(const ClipMotion& motion);
 

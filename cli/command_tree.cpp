@@ -6,7 +6,7 @@ namespace contort::cli {
 
 namespace {
 
-// "DIR"; of a number with a range the parser says "INT:INT in [1 - 9]", and we "INT in [1 - 9]".
+// Returns "DIR". For a number with a range, the parser returns "INT:INT in [1 - 9]", which becomes "INT in [1 - 9]".
 std::string value_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const std::size_t colon = type.find(':');

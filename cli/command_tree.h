@@ -12,8 +12,8 @@ class App;
 namespace contort::cli {
 
 struct OptionEntry {
-  std::vector<std::string> names{};  // "-o", "--output"; empty where the place in the command line tells the option
-  std::string value{};               // "DIR"; of a flag ""
+  std::vector<std::string> names{};  // "-o", "--output"; empty for arguments by position
+  std::string value{};               // "DIR"; "" for a flag
   std::string about{};
   std::string default_value{};
   bool is_required = false;
@@ -24,16 +24,16 @@ struct OptionEntry {
 };
 
 struct CommandEntry {
-  std::string name{};  // "corpus list"; of the program itself ""
+  std::string name{};  // "corpus list"; "" for the program itself
   std::string about{};
   std::string footer{};
   std::vector<OptionEntry> options{};
-  std::vector<std::string> commands{};  // last words of the commands below: "list"
+  std::vector<std::string> commands{};  // last words of the subcommands: "list"
 
   bool operator==(const CommandEntry&) const = default;
 };
 
-// The program itself, and behind each command those below it.
+// The program, and after each command its subcommands.
 std::vector<CommandEntry> command_tree(const CLI::App& program);
 
 }  // namespace contort::cli

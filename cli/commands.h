@@ -54,7 +54,7 @@ struct Context {
   // --today, else the day of the clock, UTC.
   std::string day() const;
 
-  // Prints the one line that a user sees, and sets the exit code.
+  // Prints an issue in one line, and sets the exit code.
   void fail(const Issue& issue, Exit code = kBadInput);
 };
 

@@ -1,6 +1,6 @@
-// The three scripts work alike. They walk the words before the cursor: a command leads to its place in the tree
-// ("corpus list"), and an option with a value skips the next word. What is offered depends on that place alone. Where
-// neither commands nor options fit, the shell completes names of files.
+// The three scripts work alike. They go through the words before the cursor: a command leads to its place in the tree
+// ("corpus list"), and an option with a value skips the next word. The suggestions depend on that place alone. If
+// neither commands nor options match, the shell completes file names.
 #include "cli/completion.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ std::string joined_by(const Words& words, const std::string& between) {
 
 std::string double_quoted(const std::string& text) { return "\"" + text + "\""; }
 
-// In single quotes, where `escape` is how the shell writes a single quote inside of them.
+// Quotes text in single quotes. `escape` is the shell's notation for a single quote inside of them.
 std::string single_quoted(const std::string& text, const std::string& escape) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? escape : std::string(1, c);
@@ -29,12 +29,12 @@ std::string single_quoted(const std::string& text, const std::string& escape) {
 std::string for_zsh(const std::string& text) { return single_quoted(text, "'\\''"); }
 std::string for_fish(const std::string& text) { return single_quoted(text, "\\'"); }
 
-// The place of a command below this one.
+// The place of a subcommand of this command.
 std::string place_of(const CommandEntry& above, const std::string& command) {
   return above.name.empty() ? command : above.name + " " + command;
 }
 
-// A command's own options and those of the program, which may follow any command.
+// A command's own options, and those of the program, which may follow any command.
 std::vector<OptionEntry> options_at(std::span<const CommandEntry> commands, const CommandEntry& command) {
   std::vector<OptionEntry> options = command.options;
   if (!command.name.empty())
@@ -44,7 +44,7 @@ std::vector<OptionEntry> options_at(std::span<const CommandEntry> commands, cons
   return options;
 }
 
-// Patterns "PLACE|WORD" of options with a value; those of the program are options at every place.
+// Patterns "PLACE|WORD" of options with a value. The program's options are valid at every place.
 Words patterns_with_value(std::span<const CommandEntry> commands) {
   Words patterns;
   for (const CommandEntry& command : commands)
@@ -56,7 +56,7 @@ Words patterns_with_value(std::span<const CommandEntry> commands) {
   return patterns;
 }
 
-// Arms of a `case`, as bash and zsh both read them.
+// Arms of a `case` statement, for both bash and zsh.
 std::string arms_that_walk(std::span<const CommandEntry> commands) {
   std::string text;
   for (const CommandEntry& command : commands)
@@ -67,7 +67,7 @@ std::string arms_that_walk(std::span<const CommandEntry> commands) {
   return text;
 }
 
-// 'name:about' for _describe.
+// Returns 'name:about', for _describe.
 std::string described(const std::string& name, const std::string& about) { return for_zsh(name + ":" + about); }
 
 const CommandEntry& entry_at(std::span<const CommandEntry> commands, const std::string& name) {

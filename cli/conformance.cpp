@@ -18,15 +18,15 @@ namespace contort::cli {
 
 namespace {
 
-constexpr int kDrawn = 24;                    // motions
-constexpr double kMostDrawn_s = 8.0;          // for all of them
+constexpr int kDrawn = 24;                    // number of drawn motions
+constexpr double kMostDrawn_s = 8.0;          // time limit for all drawn motions together
 constexpr double kSlow_frames_s = 1000.0;
 constexpr double kAtRest_rad = 1.0 * kRadPerDeg;
 constexpr double kAtRest_m = 0.01;
-constexpr double kSmallest_m = 0.05, kGreatest_m = 20.0;  // of a plausible figure
-constexpr double kWild_rad = 0.35;            // in a frame: 20 degrees
+constexpr double kSmallest_m = 0.05, kGreatest_m = 20.0;  // size of a plausible figure
+constexpr double kWild_rad = 0.35;            // rotation in one frame: 20 degrees
 constexpr int kMostPairsNamed = 6;
-constexpr double kOften = 0.5;                // share of motions
+constexpr double kOften = 0.5;                // fraction of motions
 
 std::string ending_text(const ProgramEnded& ended) {
   const Ending& ending = ended.ending();
@@ -47,7 +47,7 @@ std::string ending_text(const ProgramEnded& ended) {
   return "The generator ends while it makes a motion (" + ending.signal + ")." + printed;
 }
 
-// The conversation so far. Everything that goes wrong becomes a remark.
+// The conversation so far. Every problem becomes a remark.
 class Examination {
  public:
   explicit Examination(GuestGenerator& generator) : generator_(generator), evaluator_(generator) {
@@ -82,7 +82,7 @@ class Examination {
     }
   }
 
-  // A range such as -1.57 to 1.57 is of radians; of degrees it would be a joint that hardly moves.
+  // A range such as -1.57 to 1.57 is probably in radians; in degrees the joint would hardly move.
   void examine_manifest() {
     int hinges = 0, in_radians = 0;
     for (const GuestCharacter& character : generator_.said().characters)
@@ -96,7 +96,7 @@ class Examination {
       fault("All ranges of hinges are within 6.3: they look like radians, but low_deg and high_deg are degrees.");
   }
 
-  // Contacts at rest are not judged, so a typo in a radius would hide collisions.
+  // Contacts at rest are not judged, so a wrong radius would hide collisions.
   void examine_contacts() {
     for (const auto& [name, desc] : generator_.manifest().library->characters) {
       std::string pairs;
@@ -110,7 +110,7 @@ class Examination {
     }
   }
 
-  // The pose of a request without actions, against the rest pose of the manifest.
+  // Compares the pose of a request without actions with the rest pose of the manifest.
   bool examine_rest() {
     for (const std::string& name : config_.characters) {
       Spec spec;
@@ -162,7 +162,7 @@ class Examination {
     return **frames;
   }
 
-  // Two fresh processes, then the same request again after another one.
+  // Compares two fresh processes, then repeats the request after another one.
   void examine_determinism() {
     const Spec spec = drawn_long(0), other = drawn_long(1);
     generator_.restart();
@@ -189,7 +189,7 @@ class Examination {
     }
   }
 
-  // The longest of some draws: it has the most to leave behind.
+  // The longest of several draws, because its state could affect later requests most.
   Spec drawn_long(std::int64_t seed) {
     Spec longest = draw_spec(config_, generator_, seed, 0);
     for (std::int64_t index = 1; index < 8; ++index)
@@ -241,7 +241,7 @@ class Examination {
         out_.not_judged.emplace_back(missing.check, missing.reason);
   }
 
-  // Angles in degrees that a sine takes for radians turn a joint by tens of degrees in most frames.
+  // If degrees are used as radians, a joint turns by tens of degrees in most frames.
   void look_for_degrees(const Execution& execution) {
     for (const Joint& joint : execution.character->joints()) {
       int moving = 0, wild = 0;
@@ -297,7 +297,7 @@ class Examination {
             " % of the motions that the manifest allows are refused: " + by_frequency(out_.refusals).front().text);
   }
 
-  // Each number at the ends of its range, everything else at its default.
+  // Requests each number at the ends of its range, with all other numbers at their defaults.
   void examine_ends_of_parameters() {
     if (has_ended_) return;
     for (const std::string& name : config_.characters) {
@@ -333,7 +333,7 @@ class Examination {
   DrawConfig config_;
   Conformance out_;
   std::string wild_joint_;
-  bool has_ended_ = false;  // one such fault is enough: the next would be the same
+  bool has_ended_ = false;  // one such fault is enough, because the next would be the same
 };
 
 }  // namespace

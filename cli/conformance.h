@@ -11,7 +11,7 @@ namespace contort::cli {
 
 struct ProtocolRemark {
   bool is_fault = false;  // true: a fault; false: a note for people
-  std::string text;       // one sentence that says what to change
+  std::string text;       // one sentence that describes the necessary change
   bool operator==(const ProtocolRemark&) const = default;
 };
 
@@ -29,7 +29,7 @@ struct Conformance {
   bool has_fault() const;
 };
 
-// Asks for rest, for motions that are drawn like those of a run, for the ends of every parameter, and for one motion
+// Requests the rest pose, motions that are drawn like those of a run, the ends of every parameter, and one motion
 // several times in several processes. Takes seconds.
 Conformance check_conformance(GuestGenerator& generator);
 

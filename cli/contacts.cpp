@@ -1,4 +1,4 @@
-// contort contacts: which contacts of a character are no faults, and why; which others can hardly be.
+// contort contacts: lists the allowed contacts of a character with their reasons, and proposes contacts to allow.
 #include "import/contacts.h"
 
 #include <CLI/CLI.hpp>
@@ -20,7 +20,7 @@ namespace {
 
 using json_fields::Json;
 
-constexpr std::string_view kUser = "user: ";  // what a character's file allows
+constexpr std::string_view kUser = "user: ";  // prefix of contacts that a character's file allows
 
 struct ContactsOptions {
   std::string subject;
@@ -29,7 +29,7 @@ struct ContactsOptions {
   bool json = false;
 };
 
-// A name of the library; else a spec's character, with its parts and objects.
+// The character with this name in the library; otherwise a spec's character, with its parts and objects.
 Result<Character> character_of(const std::string& subject, const Library& library) {
   if (library.characters.contains(subject))
     return build_character({.name = subject, .parts = {}, .attachments = {}}, library);
@@ -85,7 +85,7 @@ void print_text(const Character& character, const OwnContacts& proposed, int pos
     std::printf("  and %d more, which a character's file has no place for\n", proposed.left_out);
 }
 
-// As a character's file has it, with what is there already.
+// The proposed and the present pairs, in the form of a character's file.
 std::string file_text(const Character& character, const OwnContacts& proposed) {
   std::vector<AllowedPairDesc> pairs;
   for (AllowedPairDesc& pair : allowed_of(character))

@@ -1,4 +1,4 @@
-// contort corpus: look at what is stored, say what is known about it, and keep the files in order.
+// contort corpus: lists stored failures, records notes and decisions about them, and maintains the files.
 #include "corpus/corpus.h"
 
 #include <CLI/CLI.hpp>
@@ -61,7 +61,7 @@ Result<Corpus> open_corpus(const CorpusOptions& options, Context& context) {
   return corpus;
 }
 
-// Damaged buckets are told, and the others are still there.
+// Reports damaged buckets, and returns the others.
 std::vector<Bucket> read_buckets(const Corpus& corpus, Context& context) {
   std::vector<Issue> damaged;
   std::vector<Bucket> buckets = corpus.buckets(damaged);
@@ -83,7 +83,7 @@ void list(const CorpusOptions& options, Context& context) {
   std::printf("%s", corpus_list_text({*corpus, std::move(buckets), today, options.fold_sides}).c_str());
 }
 
-// The one whose id, or folder's name, begins like this.
+// The bucket whose id or folder name begins with this prefix.
 Result<Bucket> find_bucket(const std::vector<Bucket>& buckets, const std::string& prefix) {
   std::vector<Bucket> found;
   for (const Bucket& bucket : buckets)
@@ -124,7 +124,7 @@ void show(const CorpusOptions& options, Context& context) {
   for (const std::string& run : bucket.runs) line("run", run);
   if (minimal)
     for (const Family& other : minimal->co_failures) line("comes with", print_family(other));
-  // A corpus names no program, so that its command is for the reader to fill in.
+  // A corpus has no path of the program under test, so the reader must add it to the command.
   Sources sources = context.sources;
   const std::string found_with = minimal ? minimal->provenance.generator : "";
   if (sources.generator.empty() && !found_with.empty()) sources.generator = "COMMAND OF " + found_with;
@@ -133,8 +133,8 @@ void show(const CorpusOptions& options, Context& context) {
     line(file.substr(0, file.find('-')).c_str(), replay_command(corpus->folder_of(bucket) + "/" + file, sources));
 }
 
-// Returns the buckets of the one cause whose id begins with `prefix`, or to which the failure belongs whose id does. A
-// fixed bucket belongs to no cause.
+// Returns the buckets of the only cause whose id begins with `prefix`, or that has a failure whose id does. Fixed
+// buckets have no cause.
 Result<std::vector<Bucket>> buckets_of_cause(const Corpus& corpus, std::vector<Bucket> buckets,
                                              const std::string& prefix) {
   std::erase_if(buckets, [](const Bucket& bucket) { return bucket.state == BucketState::fixed; });
@@ -152,7 +152,7 @@ Result<std::vector<Bucket>> buckets_of_cause(const Corpus& corpus, std::vector<B
   return Issue{"corpus.many_causes", "", "\"" + prefix + "\" is the beginning of " + ids};
 }
 
-// Returns each bucket once that the options name, by itself or by its cause.
+// Returns all buckets that the options name, by themselves or by their cause, each once.
 Result<std::vector<Bucket>> chosen_buckets(const Corpus& corpus, const std::vector<Bucket>& all,
                                            const CorpusOptions& options) {
   if (options.buckets.empty() && options.causes.empty())
@@ -174,7 +174,7 @@ Result<std::vector<Bucket>> chosen_buckets(const Corpus& corpus, const std::vect
   return chosen;
 }
 
-// Changes nothing if one of the buckets is not found or may not change.
+// Changes nothing if one of the buckets is not found or may not be changed.
 void change_all(const CorpusOptions& options, Context& context, const Corpus::Change& change) {
   const Result<Corpus> corpus = open_corpus(options, context);
   if (!corpus) return;

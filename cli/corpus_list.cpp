@@ -34,7 +34,7 @@ class CorpusList {
   }
 
  private:
-  // The line of the first one names the others.
+  // The line of the first bucket names the others.
   void fold(const std::vector<std::size_t>& group) {
     for (std::size_t i = 1; i < group.size(); ++i) {
       const Bucket& other = buckets_[group[i]];
@@ -89,7 +89,7 @@ class CorpusList {
 
   const ListedCorpus& listed_;
   const std::vector<Bucket>& buckets_;
-  std::map<std::string, std::string> others_;  // by id: the other sides that its line names
+  std::map<std::string, std::string> others_;  // names of the other sides in its line, by id
   std::set<std::string> shown_;
   std::string out_;
 };

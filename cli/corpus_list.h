@@ -11,13 +11,13 @@ namespace contort::cli {
 
 struct ListedCorpus {
   const Corpus& corpus;
-  std::vector<Bucket> buckets;  // that are listed
+  std::vector<Bucket> buckets;  // the listed buckets
   std::string today;
   bool fold_sides = false;      // failures that differ only in left and right are one line
 };
 
-// The most severe cause comes first, with a line for each of its failures. Fixed failures have no cause any more, and
-// come last, as do those whose smallest case cannot be read. The last line counts.
+// The most severe cause comes first, with a line for each of its failures. Failures without a cause come last: fixed
+// ones, and those whose minimal case cannot be read. The last line has the counts.
 std::string corpus_list_text(const ListedCorpus& listed);
 
 }  // namespace contort::cli

@@ -63,7 +63,7 @@ void add_one(CLI::App& corpus, Context& context, const std::string& name, const 
   command->callback([folder, run, &context] {
     const Result<Corpus> opened = Corpus::open(*folder);
     if (!opened) return context.fail(opened.issue());
-    for (const Issue& issue : left_alone(*opened)) context.fail(issue);  // told, and the others are seen to
+    for (const Issue& issue : left_alone(*opened)) context.fail(issue);  // reported; the other buckets are processed
     const Result<Changes> changes = run(*opened);
     if (!changes) return context.fail(changes.issue(), exit_of(changes.issue()));
     for (const std::string& change : *changes) std::printf("%s\n", printable(change).c_str());

@@ -9,7 +9,8 @@
 
 namespace contort::cli {
 
-// The script library.js: the library's descriptions that are not stock, and the settings of checks. Codes of files.
+// Returns the script library.js: the library's descriptions except for the stock ones, and the settings of checks.
+// Codes of files.
 Result<std::string> library_script(const Library& library, const Context& context);
 
 }  // namespace contort::cli

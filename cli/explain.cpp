@@ -1,4 +1,4 @@
-// contort explain: under which conditions the causes of a corpus show.
+// contort explain: learns the conditions under which the causes of a corpus show.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
@@ -77,11 +77,11 @@ class Explainer {
   Explainer(const ExplainOptions& options, const Corpus& corpus, Context& context)
       : options_(options), corpus_(corpus), context_(context) {}
 
-  // Learns what is missing or void, and stores it at once, so that an interruption loses one rule at most.
+  // Learns missing and void rules, and stores each at once, so that an interruption loses at most one.
   Result<Done> learn(const std::vector<Question>& questions) {
     Generator* generator = context_.load_generator();
     const Result<CheckSettings> settings = context_.load_settings();
-    if (generator == nullptr) return Done{};  // told already
+    if (generator == nullptr) return Done{};  // the error was printed before
     if (!settings) return settings.issue();
     if (const Result<Done> same = check_generator(corpus_, generator->manifest()); !same) return same;
     const Result<std::string> build = own_build();
@@ -108,7 +108,7 @@ class Explainer {
     return Done{};
   }
 
-  // Removes the rules of causes that the corpus does not have any more: of what is fixed, nothing is known to go wrong.
+  // Removes the rules of causes that the corpus does not have any more, such as fixed ones.
   Result<Done> forget_others(const std::vector<CauseRow>& rows) {
     const auto is_gone = [&rows](const Condition& condition) {
       return std::ranges::none_of(rows, [&](const CauseRow& row) {

@@ -56,14 +56,14 @@ struct FuzzOptions {
   std::string shrink_time;
   std::string corpus;  // "": contort-out/corpus, or the folder of the pair of builds
   AgainstOptions against;
-  double fail_on = 0.0;  // severity of a cause
+  double fail_on = 0.0;  // smallest severity of a cause that fails the run
   std::string report;
   std::string log;
   OutputRequest outputs;
   bool json = false;
 };
 
-// Ten times a second at most.
+// Prints at most ten times a second.
 class RunLine {
  public:
   explicit RunLine(const RunConfig& config) : config_(config) {}
@@ -87,7 +87,7 @@ class RunLine {
   double next_s_ = 0.0;
 };
 
-// The characters of the command line, else of the profile, else all.
+// The characters of the command line; otherwise of the profile; otherwise all.
 Result<DrawConfig> choose_what_is_drawn(const FuzzOptions& options, Generator& generator) {
   DrawConfig draw;
   if (!options.profile.empty()) {
@@ -105,10 +105,10 @@ Result<DrawConfig> choose_what_is_drawn(const FuzzOptions& options, Generator& g
   return draw;
 }
 
-// 0: no limit.
+// Returns 0 for no limit.
 Result<double> time_of(const std::string& text) { return text.empty() ? Result<double>(0.0) : parse_time_s(text); }
 
-// The command line decides, else the profile.
+// The command line takes precedence over the profile.
 Result<Done> choose_how_long(const FuzzOptions& options, RunConfig& config) {
   const Profile& profile = config.draw.profile;
   const Result<double> wanted_s = time_of(options.time), profile_s = time_of(profile.time);
@@ -121,7 +121,7 @@ Result<Done> choose_how_long(const FuzzOptions& options, RunConfig& config) {
   return Done{};
 }
 
-// They come on top of the cases that are drawn.
+// Seeds are run in addition to drawn cases.
 Result<Done> choose_seeds(const FuzzOptions& options, Generator& generator, RunConfig& config) {
   if (options.seeds.empty()) return Done{};
   Result<std::vector<Spec>> seeds = read_seeds(options.seeds, generator);
@@ -143,7 +143,7 @@ Result<Done> choose_shrinking(const FuzzOptions& options, RunConfig& config) {
 }
 
 Result<Shard> choose_shard(const FuzzOptions& options) {
-  // Bazel takes a test that does not touch this file for one that does all the work in each of its shards.
+  // Bazel assumes that a test that does not touch this file does all the work in each shard.
   if (const char* touched = std::getenv("TEST_SHARD_STATUS_FILE"); touched != nullptr)
     if (const Result<Done> done = write_output(touched, ""); !done) return done.issue();
   if (!options.shard.empty()) return parse_shard(options.shard);
@@ -173,7 +173,7 @@ Result<RunConfig> configure(const FuzzOptions& options, const CheckSettings& set
   return config;
 }
 
-// The ids of the run's buckets that fail a build: those that people know of, or that the baseline has, do not.
+// The ids of the run's buckets that gate a build (is_gating).
 Result<std::set<std::string>> gating_buckets(const RunResult& result, const std::string& today,
                                              const Baseline& baseline) {
   const GroupCounts now = group_counts_of(std::span(&result.record, 1));
@@ -207,7 +207,7 @@ bool any_lead_gates(const RunResult& result, const Corpus& corpus, const std::st
   });
 }
 
-// Whether anything that was found fails a build. A failure that waits to be shrunk has no cause, and so no severity.
+// Returns true if a finding fails the build. A failure that waits to be shrunk has no cause, and so no severity.
 Result<bool> any_gates(const RunResult& result, const Corpus& corpus, const FuzzOptions& options,
                        const std::string& today) {
   if (result.record.against) return comparison_gates(result, options.against);
@@ -228,7 +228,7 @@ int exit_code_of(const RunResult& result, bool gates) {
   return gates ? kFindings : kClean;
 }
 
-// --resume after a new build or with other options begins another run: say so, if the corpus has the state of one.
+// --resume after a new build, or with other options, begins another run. This warns if the corpus has the state of one.
 void warn_of_other_states(const RunConfig& config, const Corpus& corpus) {
   namespace fs = std::filesystem;
   RunRecord record;
@@ -238,7 +238,7 @@ void warn_of_other_states(const RunConfig& config, const Corpus& corpus) {
   const std::string of_seed = "seed_" + std::to_string(config.seed) + "_";
   std::set<std::string> others;
   for (const auto& entry : fs::directory_iterator(corpus.folder() + "/runs", error)) {
-    const std::string name = entry.path().stem();  // with its shard, after a dot
+    const std::string name = entry.path().stem();  // the name may have a shard after a dot
     const bool is_running = fs::exists(fs::path(entry.path()).replace_extension(".lock"), error);
     const bool is_other = name.starts_with(of_seed) && name.substr(0, name.find('.')) != record.name;
     if (entry.path().extension() == ".state" && is_other && !is_running) others.insert(name);
@@ -250,13 +250,13 @@ void warn_of_other_states(const RunConfig& config, const Corpus& corpus) {
         printable(other).c_str(), record_name(record).c_str());
 }
 
-// Found out now, and not after an hour of work.
+// Checks the outputs now, not after an hour of work.
 Result<Done> check_results(const FuzzOptions& options) {
   if (const Result<Done> writable = check_outputs(options.outputs); !writable) return writable;
   return options.report.empty() ? Result<Done>(Done{}) : check_report_folder(options.report);
 }
 
-// A comparison has a corpus of its own for each pair of builds.
+// Each pair of builds has a corpus of its own.
 Result<Corpus> open_corpus(const FuzzOptions& options, const RunConfig& config) {
   Result<Corpus> corpus = Corpus::create(options.corpus);
   if (!corpus) return corpus;
@@ -264,7 +264,7 @@ Result<Corpus> open_corpus(const FuzzOptions& options, const RunConfig& config) 
   return corpus;
 }
 
-// A program under test may refuse what its manifest allows, which wastes time; our own generator must not.
+// A program under test may refuse requests that its manifest allows, which wastes time. Our own generator must not.
 void tell_discarded(const RunRecord& record, bool of_program) {
   const auto count = static_cast<long long>(record.discarded);
   if (of_program)
@@ -274,13 +274,13 @@ void tell_discarded(const RunRecord& record, bool of_program) {
     std::fprintf(stderr, "contort: %lld drawn specs did not build; that is a fault of the fuzzer\n", count);
 }
 
-// Cases of two generators do not belong into one corpus.
+// Cases of two generators must not be mixed in one corpus.
 std::string corpus_of_generator(const std::string& name) {
   return name.empty() ? "contort-out/corpus" : "contort-out/program-" + content_id(name).substr(0, 8);
 }
 
 void run(FuzzOptions options, Context& context) {
-  std::signal(SIGINT, on_interrupt);  // before all else: from here on a run that is stopped ends as one
+  std::signal(SIGINT, on_interrupt);  // first of all, so that an interrupted run always ends properly
   std::signal(SIGTERM, on_interrupt);
   take_limits(options.limits, context.sources);
   Generator* generator = context.load_generator();
@@ -299,7 +299,8 @@ void run(FuzzOptions options, Context& context) {
     options.corpus = config.against ? folder_of_pair(*config.against) : corpus_of_generator(config.generator);
   if (const Result<Done> ready = check_results(options); !ready)
     return context.fail(ready.issue(), exit_of(ready.issue()));
-  // Now, not after an hour of fuzzing; it is read again at the end, when others may have added to it.
+  // Reads the baseline now, not after an hour of fuzzing, to report errors. It is read again at the end, because other
+  // programs may have changed it.
   const Result<Baseline> known = load_baseline(options.outputs.baseline);
   if (!known) return context.fail(known.issue());
   const Result<Corpus> corpus = open_corpus(options, config);

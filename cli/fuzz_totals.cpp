@@ -27,7 +27,7 @@ std::vector<CauseRow> causes_found(const RunResult& result, const Corpus& corpus
   for (const std::string& folder : result.new_buckets) fresh.insert(name_of_folder(folder));
   touched = fresh;
   for (const std::string& folder : result.known_buckets) touched.insert(name_of_folder(folder));
-  std::vector<Issue> damaged;  // the run has told of what cannot be read
+  std::vector<Issue> damaged;  // the run has reported unreadable files before
   std::vector<CauseMember> found, before;
   for (CauseMember& member : cause_members(corpus, corpus.buckets(damaged), damaged)) {
     const std::string name = folder_name(member.bucket);
@@ -47,7 +47,7 @@ std::vector<CauseRow> causes_found(const RunResult& result, const Corpus& corpus
 
 namespace {
 
-// "3 of them new, 1 more frequent than before, 12 too rare to say"
+// Text such as "3 of them new, 1 more frequent than before, 12 too rare to say".
 std::string news_text(std::span<const CauseRow> causes) {
   const auto with = [&](CauseNews news) { return count_text(std::ranges::count(causes, news, &CauseRow::news)); };
   std::string text = with(CauseNews::fresh) + " of them new";
@@ -78,8 +78,8 @@ void print_causes(const RunResult& result, const TotalsRequest& request) {
                   .c_str());
 }
 
-constexpr std::size_t kMostUnsteady = 5;  // that are printed; the others are only counted
-constexpr std::size_t kMostReasons = 5;   // of refusals; the same
+constexpr std::size_t kMostUnsteady = 5;  // greatest number of printed ones; the others are only counted
+constexpr std::size_t kMostReasons = 5;   // greatest number of printed reasons for refusals
 
 void print_unsteady(const RunResult& result, const TotalsRequest& request) {
   for (std::size_t i = 0; i < std::min(result.unconfirmed.size(), kMostUnsteady); ++i)

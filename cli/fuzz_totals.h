@@ -27,10 +27,10 @@ struct TotalsRequest {
   const Baseline& baseline;
 };
 
-// All but the last line: failures with their commands, waivers, counts, and what is left to do.
+// Prints everything except the last line: failures with their commands, waivers, counts, and the work that is left.
 void print_totals(const RunResult& result, const TotalsRequest& request);
 
-// The last line, whatever else was printed.
+// Prints the last line, which has a fixed form.
 void print_result(const RunResult& result);
 
 }  // namespace contort::cli

@@ -1,4 +1,4 @@
-// contort generate: one motion, as glTF animation or as a plain table of numbers.
+// contort generate: makes one motion, as a glTF animation or as a table of numbers.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
@@ -25,12 +25,12 @@ struct GenerateOptions {
   std::string output;
 };
 
-// The part that the spec moves alone, if it does.
+// The only part that moves, if the spec names one.
 std::optional<int> part_alone(const Spec& spec, const Character& character) {
   return spec.only_slot.empty() ? std::nullopt : std::optional(character.find_part(spec.only_slot));
 }
 
-// Coordinates of one part stand together in a posture.
+// The coordinates of one part are next to each other in a posture.
 struct Columns {
   int first = 0;
   int count = 0;

@@ -1,4 +1,5 @@
-// contort generator check: whether a program keeps the protocol contort.generator/1, in sentences.
+// contort generator check: checks whether a program keeps the protocol contort.generator/1, and reports it in
+// sentences.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
@@ -15,7 +16,7 @@ namespace contort::cli {
 
 namespace {
 
-constexpr GuestLimits kExamined{60.0, 5.0};  // nobody waits longer for an answer
+constexpr GuestLimits kExamined{60.0, 5.0};  // users do not want to wait longer for an answer
 constexpr std::size_t kMostReasonsShown = 20;
 
 constexpr std::size_t kMostFollowersShown = 20;

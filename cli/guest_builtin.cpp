@@ -1,4 +1,4 @@
-// contort guest-builtin: the built-in generator as a program of its own, to try the protocol with.
+// contort guest-builtin: runs the built-in generator as a separate program, to try the protocol.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 

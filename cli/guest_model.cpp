@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMostModelJoints = 1000;
 constexpr char kHowToChooseSrdf[] = "copy the model into a folder with the one that counts, or with none";
 
-// The words of a command as a shell would split it, without quotes and backslashes: enough to find the files it names.
+// Splits a command into words like a shell, without quotes and backslashes. This is enough to find the files that it
+// names.
 std::vector<std::string> words_of_command(const std::string& command) {
   std::vector<std::string> words{""};
   char quote = '\0';
@@ -38,7 +39,7 @@ std::vector<std::string> words_of_command(const std::string& command) {
   return words;
 }
 
-// The folders of files that the command names, and the present one.
+// The folders of the files that the command names, and the present folder.
 std::vector<fs::path> folders_of(const std::string& command) {
   std::vector<fs::path> folders;
   const auto add = [&](const fs::path& folder) {
@@ -62,7 +63,7 @@ Result<std::string> found_model(const std::string& path, const std::string& comm
   return Issue{"generator.no_model", "", "there is no file " + json_fields::quoted(path) + " in " + looked};
 }
 
-// A skeleton without a surface has no colliders, and nothing is known of its limits.
+// A skeleton without a surface has no colliders and no known limits.
 Result<GuestCharacter> read_bvh_joints(const std::string& path) {
   const Result<Asset> asset = read_bvh(path);
   if (!asset) return asset.issue();

@@ -1,4 +1,4 @@
-// contort import: a rigged model, or a robot, becomes a character.
+// contort import: makes a character from a rigged model or a robot.
 #include "import/import.h"
 
 #include <CLI/CLI.hpp>
@@ -38,7 +38,7 @@ struct ImportCall {
   bool json = false;
 };
 
-// --force is for files of an earlier import, and not for a folder that is no library.
+// --force overwrites files of an earlier import, but does not allow a folder that is no library.
 Result<Done> refuse_existing(const ImportCall& options, const std::vector<ImportFile>& files) {
   if (const Result<Done> own = check_library_folder(options.folder); !own) return own;
   std::error_code error;
@@ -93,7 +93,7 @@ void print_json(const ImportCall& options, const Imported& imported) {
   std::printf("%s\n", out.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
 }
 
-// Names of strangers must not steer the terminal.
+// Makes untrusted names safe for the terminal.
 std::string as_one_line(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
@@ -123,13 +123,14 @@ void print_text(const ImportCall& options, const Imported& imported) {
   print_next_steps(options, name);
 }
 
-// A .gltf may be several files: its figure is drawn by its colliders.
+// A .gltf may consist of several files. Its figure is then drawn by its colliders.
 bool is_one_file(const std::string& path) {
   const std::string ending = fs::path(path).extension().string();
   return ending == ".glb" || ending == ".vrm";
 }
 
-// The glTF files of a folder, whose clips tell how far the model's joints turn. Returns how many clips fit.
+// Adds the clips of glTF files in a folder, which show how far the model's joints turn. Returns the number of clips
+// that fit.
 Result<int> add_clips_of_folder(const std::string& folder, Asset& into) {
   std::error_code error;
   std::vector<std::string> paths;
@@ -148,7 +149,7 @@ Result<int> add_clips_of_folder(const std::string& folder, Asset& into) {
   return added;
 }
 
-// Before the report, which is the last file.
+// Adds the model before the report, which is the last file.
 Result<Done> add_model(const ImportCall& options, Imported& imported) {
   if (!options.import.wears_model) return Done{};
   Result<std::string> bytes = read_file(options.model);
@@ -184,7 +185,7 @@ void print_robot_text(const ImportCall& options, const ImportedRobot& robot) {
   print_next_steps(options, name);
 }
 
-// Options that say something about a skinned model would be without effect.
+// Refuses options for skinned models, which would have no effect on a robot.
 Result<Done> refuse_model_options(const ImportCall& options) {
   const ImportOptions& given = options.import;
   if (given.metres_per_unit == 0.0 && given.height_m == 0.0 && given.skin < 0 && !given.draw_mesh &&

@@ -22,13 +22,13 @@ namespace {
 constexpr double kLongestTime_s = 1e7;
 constexpr char kSpecOrCase[] = "a spec or a case (JSON)";
 
-// A glTF model as text is JSON, too.
+// Returns true for a glTF model as text, which is JSON too.
 bool is_gltf(const json_fields::Json& tree) {
   const auto asset = tree.is_object() ? tree.find("asset") : tree.end();
   return asset != tree.end() && asset->is_object() && asset->contains("version");
 }
 
-// Neither a spec nor a case: says what it is instead.
+// An issue with the kind of a file that is neither a spec nor a case.
 Issue other_format(const std::string& path, const std::string& text) {
   const std::string expected = "expected \"contort.spec/1\" or \"contort.case/1\"";
   const Result<json_fields::Json> tree = json_fields::parse_document(text);

@@ -19,10 +19,10 @@ class App;
 
 namespace contort::cli {
 
-// The stock library with everything of these folders.
+// Returns the stock library and all descriptions in these folders.
 Result<Library> load_libraries(const std::vector<std::string>& folders);
 
-// Limits and waivers of a file; the defaults for "".
+// Reads limits and waivers; returns the defaults for "".
 Result<CheckSettings> load_settings_file(const std::string& path);
 
 // A spec, or the spec of a case, by the file's "format".
@@ -47,7 +47,7 @@ bool plays_another_motion(const SpecInput& input, const Evaluation& evaluation);
 // Declares --level, which takes a sequence, a clip or a part of a spec or case.
 void add_level_option(CLI::App& command, std::string& level);
 
-// "45s", "1.5m", "2h", and "90", which is in seconds. Code usage.bad_time.
+// Parses "45s", "1.5m", "2h", and "90", which is in seconds. Code usage.bad_time.
 Result<double> parse_time_s(const std::string& text);
 
 // Returns an error text for NaN, and "" for other numbers, because CLI::Range accepts NaN.

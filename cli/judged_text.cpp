@@ -29,7 +29,7 @@ std::string judged_on(const JudgedSummary& summary) {
   return text.empty() ? " on nothing" : " on" + text.substr(1);
 }
 
-// "joint_range 61, pop 22", in the manifest's order.
+// Text such as "joint_range 61, pop 22", in the manifest's order.
 std::string subjects_text(const JudgedSummary& summary) {
   std::string text;
   for (const CheckDef& check : all_checks()) {
@@ -52,7 +52,7 @@ void add_reasons(const JudgedSummary& summary, std::string_view check, std::vect
   }
 }
 
-// All of them in one line, as they have one cure.
+// Puts all of them into one line, because one option makes them all judge.
 void add_without_character(const JudgedSummary& summary, std::vector<std::string>& lines) {
   std::string names;
   for (const CheckDef& check : all_checks())

@@ -10,7 +10,7 @@
 
 namespace contort::cli {
 
-// One check over several motions.
+// The results of one check over several motions.
 struct JudgedTally {
   int motions = 0;                          // number of motions that it judged
   int subjects = 0;                         // greatest number of subjects in one motion
@@ -30,7 +30,8 @@ struct JudgedSummary {
   void add(const std::vector<JudgedCheck>& judged, const std::vector<NotJudged>& not_judged);
 };
 
-// "Judged: 19 checks on 22 of 26 joints, 61 limits, 240 frames", what each judged, and a line for each that could not.
+// Returns "Judged: 19 checks on 22 of 26 joints, 61 limits, 240 frames", the subjects of each check, and a line for
+// each check that could not judge.
 std::vector<std::string> judged_lines(const JudgedSummary& summary);
 
 // JSON lists: check and subjects; check and reason.

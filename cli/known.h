@@ -1,4 +1,4 @@
-// Tells whether the rules of a corpus predict that a spec fails (docs/reference/conditions.md).
+// Checks whether the rules of a corpus predict that a spec fails (docs/reference/conditions.md).
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Folders that files of a library are written into.
+// Checks folders into which files of a library are written.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace contort::cli {
 
-// Code folder.other_files where the folder holds files and none of them is of a library: no description (*.json with a
-// "format" of contort's), no animation and no table.
+// Code folder.other_files if the folder has files, but none of a library: no description (*.json with a "format" of
+// contort's), no animation and no table.
 Result<Done> check_library_folder(const std::string& folder);
 
 }  // namespace contort::cli

@@ -1,4 +1,4 @@
-// The most that one case may take before that is a finding of its own.
+// The limits of one case. Exceeding them is a finding of its own.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,8 @@ struct LimitOptions {
 
 void add_limit_options(CLI::App& command, LimitOptions& options);
 
-// The same for commands that run no case in a process of its own: the limits are those of a program under test.
+// Adds the same options to commands that run no case in a process of its own. The limits then apply to the program
+// under test.
 void add_program_limit_options(CLI::App& command, LimitOptions& options);
 void take_limits(const LimitOptions& options, Sources& sources);
 

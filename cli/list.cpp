@@ -1,4 +1,4 @@
-// contort list, contort schema, contort version: what there is, from the manifests.
+// contort list, contort schema, contort version: lists the contents of the manifests.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <functional>
@@ -42,7 +42,7 @@ void print_params(const Json& action) {
   }
 }
 
-// docs/reference/actions.md is this, and a test compares them.
+// Prints docs/reference/actions.md; a test compares them.
 void print_markdown(const Json& list) {
   std::printf(
       "# Actions\n\nThis page lists every action of the built-in generator with its parameters; "

@@ -1,4 +1,4 @@
-// contort: the command line. One file per subcommand; this one parses and hands over.
+// contort: the command line. Each subcommand has its own file; this one parses and calls them.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
@@ -14,7 +14,7 @@ namespace contort::cli {
 
 namespace {
 
-// UTC, so that a night is the same on every machine.
+// The day in UTC, so that it is the same on every machine.
 std::string day_of_clock() {
   const auto day = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
   const std::chrono::year_month_day date(day);
@@ -105,7 +105,7 @@ int run(int argc, char** argv) {
     add(app, context);
   try {
     app.parse(argc, argv);
-  } catch (const CLI::Success& answer) {  // help, or the version
+  } catch (const CLI::Success& answer) {  // help or the version was printed
     return app.exit(answer);
   } catch (const CLI::ParseError& error) {
     std::fprintf(stderr, "contort: usage: %s (see contort --help)\n", usage_text(app, argc, argv, error).c_str());

@@ -6,7 +6,7 @@ namespace contort::cli {
 
 namespace {
 
-// Text as roff prints it: a backslash and a hyphen stand for themselves, and no line is taken for a request.
+// Escapes text for roff: backslashes and hyphens are printed as they are, and no line is interpreted as a request.
 std::string roff(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -22,7 +22,7 @@ std::string roff(const std::string& text) {
   return out;
 }
 
-// As the lines are, in the font of examples.
+// Prints lines unchanged, in the font of examples.
 std::string verbatim(const std::string& text) { return ".PP\n.nf\n" + roff(text) + "\n.fi\n"; }
 
 std::string heading_of(const OptionEntry& option) {
@@ -44,7 +44,7 @@ std::string items_of(const CommandEntry& command) {
   return text;
 }
 
-// "contort check [OPTIONS] FILE"
+// Text such as "contort check [OPTIONS] FILE".
 std::string usage_of(const CommandEntry& command) {
   std::string text = "\\fBcontort " + roff(command.name) + "\\fR [\\fIOPTIONS\\fR]";
   for (const OptionEntry& option : command.options) {

@@ -1,4 +1,4 @@
-// contort man and contort completion: what the program knows of its own commands, for man(1) and for shells.
+// contort man and contort completion: prints the program's own commands for man(1) and for shells.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>

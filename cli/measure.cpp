@@ -1,4 +1,4 @@
-// contort measure: answers for specs, a line for each, so that another build can compare itself with this one.
+// contort measure: answers specs, one line for each, so that another build can compare itself with this one.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <string>
@@ -15,7 +15,7 @@ constexpr std::size_t kMostRequestBytes = std::size_t{16} << 20;
 
 enum class LineRead { line, too_long, end };
 
-// A line that is too long is read to its end and forgotten.
+// A line that is too long is read to its end and dropped.
 LineRead read_request_line(std::string& line) {
   line.clear();
   bool is_too_long = false;

@@ -18,7 +18,7 @@ std::string MeasuredValues::text_of(const Case& stored) {
   const std::optional<Character>& character = character_of(stored);
   if (!character) return "";
   const Expectation& expect = stored.expect;
-  // A program under test says for each of its goals how near it must come.
+  // A program under test declares the tolerance of each of its goals, so the limit is unknown here.
   if (!stored.provenance.generator.empty() && expect.check == "reach_error") return "";
   const auto measured = measured_of(*character, settings_, expect.check, expect.subject, expect.worst_margin);
   return measured ? measured_text(expect.check, expect.unit, *measured) : "";

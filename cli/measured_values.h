@@ -11,14 +11,14 @@
 
 namespace contort::cli {
 
-// Builds each character once.
+// Caches the characters that it builds.
 class MeasuredValues {
  public:
   // The library must outlive it.
   MeasuredValues(const Library& library, CheckSettings settings) : library_(library), settings_(std::move(settings)) {}
 
-  // Returns "turns 3 600 °/s, limit 733 °/s"; "" if the stored margin does not tell, or if the case's character has
-  // changed since.
+  // Returns "turns 3 600 °/s, limit 733 °/s"; "" if the value does not follow from the stored margin, or if the case's
+  // character has changed since.
   std::string text_of(const Case& stored);
 
  private:

@@ -1,4 +1,4 @@
-// contort merge: corpora of shards, nights and machines become one.
+// contort merge: merges the corpora of shards, nights and machines.
 #include "corpus/merge.h"
 
 #include <CLI/CLI.hpp>
@@ -48,7 +48,7 @@ void run(const MergeOptions& options, Context& context) {
   if (!merged) return context.fail(merged.issue(), kInternal);
   std::vector<Issue> damaged = merged->damaged;
   const std::size_t buckets = into->buckets(damaged).size();
-  for (const Issue& issue : damaged) context.fail(issue);  // reported, and the rest was merged
+  for (const Issue& issue : damaged) context.fail(issue);  // reported; everything else was merged
   if (options.require_complete && !merged->incomplete.empty()) context.exit_code = kInconclusive;
   warn_of_other_rules(*into);
   print(options, *merged, buckets);

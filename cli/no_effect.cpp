@@ -10,7 +10,7 @@ namespace contort::cli {
 
 namespace {
 
-constexpr std::size_t kMostNamed = 12;  // in a message
+constexpr std::size_t kMostNamed = 12;  // greatest number of names in a message
 
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
@@ -19,14 +19,14 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-// "; did you mean "walk"?" Stars of a pattern are no letters.
+// Returns text such as "; did you mean "walk"?". Stars are removed before comparing with names.
 std::string meant_text(std::string pattern, const std::vector<std::string>& names) {
   std::erase(pattern, '*');
   const std::string meant = nearest(pattern, names);
   return meant.empty() ? "" : "; did you mean " + json_fields::quoted(meant) + "?";
 }
 
-// "there are walk, run; did you mean …?"
+// Returns text such as "there are walk, run; did you mean …?".
 std::string there_are(const std::string& pattern, const std::vector<std::string>& names) {
   return names.empty() ? "there are none" : "there are " + listed(names) + meant_text(pattern, names);
 }
@@ -35,7 +35,7 @@ bool was_judged(const ClipEvaluation& judged, std::string_view check) {
   return std::ranges::find(judged.judged, check, &JudgedCheck::check) != judged.judged.end();
 }
 
-// All subjects that findings of the check could have in this clip.
+// All possible subjects of the check's findings in this clip.
 std::vector<std::string> subjects_in(const CheckDef& check, const AssetClip& clip, const Animation& animation,
                                      const ClipCharacter& on) {
   std::vector<std::string> names;

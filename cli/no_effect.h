@@ -1,5 +1,5 @@
-// Refuses options without an effect. A pattern, a rule or a rate that applies to no file changes no verdict although
-// its user expects that. The error lists the possible values.
+// Refuses options without an effect, because their users expect one: a pattern, a rule or a rate that applies to no
+// file. The error lists the possible values.
 #pragma once
 
 #include <set>
@@ -13,7 +13,7 @@
 
 namespace contort::cli {
 
-// The clips, joints and files on which options had an effect, over all files.
+// The clips, joints and files on which options had an effect, in all files.
 struct Touched {
   std::vector<std::string> clips;  // labels, each once
   bool has_take = false;           // an .amc was read
@@ -24,7 +24,7 @@ struct Touched {
   std::set<std::string> subjects;  // subjects that rules could name
 };
 
-// Adds what was touched in one file to what was touched in those before it.
+// Adds the items of one file to those of earlier files.
 void add_touched(const Touched& file, Touched& out);
 
 void note_clips(const Animation& animation, Touched& touched);
@@ -34,7 +34,7 @@ void note_judged(const AssetClip& clip, const Animation& animation, const ClipEv
                  const ClipCharacter& on, const ClipCheckOptions& options, const CheckSettings& settings,
                  Touched& touched);
 
-// The error that --clip names no clip of these: with their names, and the one that was probably meant. Code
+// The error that --clip names none of these clips. It lists their names, and the one that was probably meant. Code
 // check.no_clip.
 Issue no_such_clip(const std::string& where, const std::string& clip, const std::vector<std::string>& clips);
 

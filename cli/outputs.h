@@ -17,13 +17,13 @@ namespace contort::cli {
 struct OutputRequest {
   std::string junit;  // paths of files, "" for none
   std::string sarif;
-  std::string markdown;  // appended to, as $GITHUB_STEP_SUMMARY is: the summary of a job's earlier steps stays
+  std::string markdown;  // appended to, like $GITHUB_STEP_SUMMARY, so that the summary of a job's earlier steps stays
   bool github = false;   // annotations on standard output
   std::string baseline;  // file or corpus, "" for none
   bool wanted() const { return github || !junit.empty() || !sarif.empty() || !markdown.empty(); }
 };
 
-// --junit, --sarif, --markdown, --github and --baseline.
+// Declares --junit, --sarif, --markdown, --github and --baseline.
 void add_output_options(CLI::App& command, OutputRequest& request);
 void add_baseline_option(CLI::App& command, std::string& baseline);
 

@@ -16,29 +16,29 @@ namespace contort::cli {
 // (arm_left)"
 std::string finding_line(const Finding& finding, double rate_hz, const Circumstances& at_worst);
 
-// A JSON list: check, subject, unit, margin (null where it is NaN), depth, frames and times, and in what circumstances
-// the worst frame was; `at_worst` has one entry for each finding.
+// A JSON list: check, subject, unit, margin (null for NaN), depth, frames and times, and the circumstances of the worst
+// frame. `at_worst` has one entry for each finding.
 std::string findings_json(const std::vector<Finding>& findings, double rate_hz,
                           const std::vector<Circumstances>& at_worst);
 
-// The effects of waivers: one line for each that has expired or hides nothing any more, and one for each that hid
-// something.
+// The effects of waivers: one line for each waiver that has expired or hides nothing any more, and one for each that
+// hid something.
 std::vector<std::string> waiver_lines(const CheckSettings& settings, const std::vector<WaiverUse>& uses);
 std::string waivers_json(const CheckSettings& settings, const std::vector<WaiverUse>& uses);
 
-// Names from files may hold line ends and escape sequences: shown as "?".
+// Replaces line ends and control characters by "?", because names from files may contain them.
 std::string printable(const std::string& text);
 
-// The notes of people about a bucket: "ana, ticket 12, until 2027-03-01: soft stop"; as much as there is.
+// The notes of people about a bucket, as far as there are any: "ana, ticket 12, until 2027-03-01: soft stop".
 std::string known_text(const Bucket& bucket, const std::string& today);
 
-// On standard error, where a corpus has buckets that were named by other rules than this version's.
+// Warns on standard error if a corpus has buckets that were named by the rules of another version.
 void warn_of_other_rules(const Corpus& corpus);
 
-// With so many digits behind the point, and in short where it has more than nine before it.
+// Prints a number with this many decimals; in short form if it has more than nine digits before the point.
 std::string decimal(double value, int digits);
 
-// A finite number as the report writes it (renders/wording.h); "nan" where it is not one.
+// A finite number in the form of the report (renders/wording.h); "nan" for NaN and infinite values.
 std::string short_number(double value);
 
 }  // namespace contort::cli

@@ -8,8 +8,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// `installed` is the way from the folder of an installed program. It goes first, because programs of others lie beside
-// that one, and may have the same name.
+// `installed` is the path relative to the folder of an installed program. It is tried first, because the folder of an
+// installed program also has other programs, which may have the same name.
 std::string installed_or_beside(const std::string& installed, const std::string& name) {
   const fs::path folder = fs::path(own_path()).parent_path();
   std::error_code error;

@@ -1,12 +1,12 @@
-// Finds the running program and the files that it needs. In a build they are beside the program. An installation may
-// be moved as a whole: there, its programs are in bin and the others at fixed ways from bin.
+// Finds the running program and the files that it needs. In a build they are beside the program. An installation may be
+// moved as a whole: its programs are in bin, and the other files at fixed relative paths.
 #pragma once
 
 #include <string>
 
 namespace contort::cli {
 
-// The running program itself.
+// The path of the running program.
 std::string own_path();
 
 // contort-render: in ../libexec/contort, or beside the program.

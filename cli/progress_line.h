@@ -8,7 +8,7 @@ namespace contort::cli {
 class ProgressLine {
  public:
   ProgressLine();
-  // Shows progress in [0, 1] with a text. Callers for which the text is costly ask `wanted` first.
+  // Shows progress in [0, 1] with a text. Callers whose text is expensive ask `wanted` first.
   bool wanted() const { return shown_; }
   void show(double share, const std::string& text) const;
   void clear() const;

@@ -1,5 +1,5 @@
-// contort render: hands over to contort-render, the program beside this one that loads OpenGL and OpenImageIO (261
-// shared libraries, 216 ms and 130 MB), so that nothing else pays for them.
+// contort render: starts contort-render, a separate program that loads OpenGL and OpenImageIO (261 shared libraries,
+// 216 ms and 130 MB), so that other commands need not load them.
 #include "cli/render.h"
 
 #include <CLI/CLI.hpp>
@@ -45,7 +45,7 @@ int draw_strips(const std::vector<StripFile>& strips, const std::vector<std::str
 
 namespace {
 
-// The minimal cases of a folder that is a corpus, deepest first; those without a motion are left out.
+// The minimal cases of a corpus, the deepest first. Cases without a motion are left out.
 Result<std::vector<std::string>> cases_of(const std::string& folder, int& unreadable) {
   const Result<Corpus> corpus = Corpus::open(folder);
   if (!corpus) return corpus.issue();
@@ -66,7 +66,7 @@ Result<std::vector<std::string>> cases_of(const std::string& folder, int& unread
   return paths;
 }
 
-// Folders become the cases that they hold; those that cannot be read are told, and counted.
+// Replaces folders by their cases. Unreadable cases are reported and counted.
 Result<Done> take_cases(std::vector<std::string>& inputs, int& unreadable) {
   std::vector<std::string> files;
   for (const std::string& input : inputs) {
@@ -87,7 +87,7 @@ struct RenderRequest : PictureOptions {
   std::vector<std::string> inputs;
 };
 
-// `given`: the options for contort-render.
+// `given` has the options for contort-render.
 void render(RenderRequest options, const std::vector<std::string>& given, Context& context) {
   if (context.gl == "none") return context.fail({"usage", "", "--gl none draws nothing"});
   int unreadable = 0;
@@ -95,7 +95,7 @@ void render(RenderRequest options, const std::vector<std::string>& given, Contex
     if (const Result<Done> found = take_cases(options.inputs, unreadable); !found) return context.fail(found.issue());
   std::vector<std::string> call = renderer_call(context);
   call.insert(call.end(), given.begin(), given.end());
-  call.push_back("--");  // A file may be called --rows.
+  call.push_back("--");  // a file may have the name --rows
   call.insert(call.end(), options.inputs.begin(), options.inputs.end());
   const Result<int> code = run_in_foreground(call);
   if (!code) return context.fail(code.issue(), kInternal);

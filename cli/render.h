@@ -1,4 +1,4 @@
-// Starting the renderer.
+// Starts the renderer.
 #pragma once
 
 #include <functional>
@@ -16,12 +16,12 @@ struct StripFile {
   std::string png;
 };
 
-// Draws strips, each process a share of them; Mesa renders in one thread of each (renders/raster/renderer.h). `more` are
-// options of contort-render; `progress` is called now and then. Answers the worst exit code.
+// Draws strips in several processes, because Mesa draws with one thread per process (renders/raster/renderer.h). `more`
+// has options of contort-render; `progress` is called from time to time. Returns the worst exit code.
 int draw_strips(const std::vector<StripFile>& strips, const std::vector<std::string>& more, const Context& context,
                 const std::function<void()>& progress);
 
-// The start of every call of it: its path, --gl, --library and --settings.
+// The beginning of every call of the renderer: its path, --gl, --library and --settings.
 std::vector<std::string> renderer_call(const Context& context);
 
 }  // namespace contort::cli

@@ -32,16 +32,16 @@ std::string clip_of(const RenderOptions& options, const std::string& png) {
   return options.clips ? std::filesystem::path(png).replace_extension(".webp").string() : options.clip;
 }
 
-// Shared by all pictures of a call.
+// The data that all pictures of a call share.
 struct Studio {
   StripRenderer renderer;
   Generator& generator;
   RenderOptions options;
   Wardrobe wardrobe;
-  std::vector<Issue> notes{};     // why figures have no skin, once each
-  std::set<std::string> noted{};  // characters
+  std::vector<Issue> notes{};     // reasons for which figures have no skin, each once
+  std::set<std::string> noted{};  // characters with such a reason
 
-  // nullptr: the figure is drawn as its parts say.
+  // nullptr: the figure is drawn by its parts' meshes.
   std::shared_ptr<const Skin> skin_of(const Character& character) {
     const Result<std::shared_ptr<const Skin>> skin = wardrobe.skin_of(character);
     if (skin) return *skin;
@@ -52,7 +52,7 @@ struct Studio {
   }
 };
 
-// The contents of a file, with all that has to live as long as its pictures are drawn.
+// The contents of a file, with all data that must live as long as its pictures are drawn.
 struct Shown {
   SpecInput input;
   Evaluator evaluator;
@@ -100,7 +100,7 @@ Result<StripDone> draw(Studio& studio, const std::string& file, const std::strin
   return written ? done : written.issue();
 }
 
-// A file of several, and what it makes.
+// One of several files, and its motion.
 struct Performed {
   std::string file;
   Spec spec;
@@ -121,7 +121,7 @@ Result<std::vector<Performed>> perform_all(Studio& studio, const std::vector<std
   return all;
 }
 
-// The frames of the command line, or frames spread over the shortest of the motions.
+// The frames of the command line, or frames evenly spread over the shortest motion.
 std::vector<int> frames_of(const RenderOptions& options, const std::vector<Performed>& all) {
   if (!options.frames.empty()) return options.frames;
   int first = all.front().made.motion.first_frame, shortest = all.front().made.motion.frame_count;
@@ -169,7 +169,7 @@ Result<StripDone> draw_all(Studio& studio) {
   return studio.renderer.render_rows(input, options.output);
 }
 
-// Around the first difference, up to the last one; of frames that both have.
+// Frames around the first difference, up to the last one, in the range that both motions have.
 std::vector<int> frames_of(const RenderOptions& options, const Divergence& divergence) {
   if (!options.frames.empty()) return options.frames;
   if (divergence.first.frame < 0) return spread_frames(divergence.frames, options.tiles);
@@ -177,7 +177,7 @@ std::vector<int> frames_of(const RenderOptions& options, const Divergence& diver
                        options.tiles);
 }
 
-// Two rows: the first motion, and the second with the first as its ghost, where it is the same figure.
+// Makes two rows: the first motion, and the second one with the first as its ghost if the figures are the same.
 RowsInput rows_of(const RenderOptions& options, const std::vector<Performed>& all, const Divergence& divergence,
                   const Finding& where, const std::string& verdict) {
   RowsInput input;
@@ -221,14 +221,14 @@ Result<StripDone> draw_comparison(Studio& studio) {
 constexpr int kSheetColumns = 5;
 constexpr std::size_t kMostSheetTiles = 1000;
 
-// In a narrow tile the end of the title is cut: the joint comes first.
+// A narrow tile cuts the end of the title, so the joint comes first.
 Result<Image> draw_tile(Studio& studio, const Shown& shown, const std::string& file) {
   StripInput strip = strip_of(shown, studio.options, file);
   if (strip.finding != nullptr) strip.title = strip.finding->subject + "  " + strip.finding->check;
   return studio.renderer.render_tile(strip);
 }
 
-// A tile for each file; those that cannot be shown are left out and counted, and `warnings` says so.
+// Draws a tile for each file. Files that cannot be shown are left out and counted, and listed in `warnings`.
 Result<StripDone> draw_sheet(Studio& studio, int& left_out) {
   const RenderOptions& options = studio.options;
   StripDone done;
@@ -257,7 +257,7 @@ int fail(const Issue& issue, int code) {
   return code;
 }
 
-// Input faults are the user's, the rest (no OpenGL, an unwritable picture) the machine's.
+// Input faults are the user's; all others (no OpenGL, an unwritable picture) are the machine's.
 int code_of(const Issue& issue) {
   if (issue.code == "generator.ended") return kFindings;
   const bool asked = issue.code == "render.bad_frame" || issue.code == "render.bad_size";
@@ -299,7 +299,7 @@ int run(RenderOptions options) {
   Result<CheckSettings> settings = load_settings_file(options.settings_file);
   if (!settings) return fail(settings.issue(), kBadInput);
   options.settings = std::move(settings).value();
-  options.settings.waivers.clear();  // what is waived is still there to be seen
+  options.settings.waivers.clear();  // waived findings are shown too
   Result<StripRenderer> renderer = StripRenderer::create(*gl_source(options.gl));
   if (!renderer) return fail(renderer.issue(), kInternal);
   Wardrobe wardrobe(options.sources.libraries);

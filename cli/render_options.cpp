@@ -9,10 +9,10 @@ namespace contort::cli {
 
 namespace {
 
-// A range that the help does not list after the name of the unit.
+// A range that is not repeated in the help after the unit's name.
 CLI::Validator range(double least, double most) { return CLI::Range(least, most).description(""); }
 
-// The parser takes nothing as the number 0.
+// Refuses an empty text, which the parser would read as the number 0.
 std::string refuse_empty(const std::string& text) {
   return text.empty() ? "found \"\", expected a number" : "";
 }
@@ -63,7 +63,7 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
 std::vector<std::string> given_options(const CLI::App& command) {
   std::vector<std::string> call;
   for (const CLI::Option* option : command.get_options()) {
-    if (option->get_lnames().empty() || option->count() == 0) continue;  // FILE, or none was given
+    if (option->get_lnames().empty() || option->count() == 0) continue;  // FILE, or an option that was not given
     const std::string name = "--" + option->get_lnames().front();
     const bool is_flag = option->get_items_expected_max() == 0;
     if (is_flag) call.push_back(name);

@@ -15,13 +15,13 @@ class App;
 
 namespace contort::cli {
 
-// Options that both programs have. What is added here has to be declared once, in add_picture_options.
+// Options of both programs. A new one is declared once, in add_picture_options.
 struct PictureOptions {
   std::string output;
   int tiles = 8;
   std::vector<int> frames;
   std::string level;        // scope of each file; "": the whole spec
-  std::string azimuth_deg;  // as it was written; "": not given
+  std::string azimuth_deg;  // as written on the command line; "": not given
   std::string clip;         // file for the animation; "": none
   std::string compared;     // the file to compare with; "": no comparison
   double tolerance_mm = 1000.0 * kSamePlace_m;
@@ -38,7 +38,7 @@ struct PictureOptions {
 
 void add_picture_options(CLI::App& command, PictureOptions& options);
 
-// The options, without files, that the parsed command line has, for a program that declares the same ones.
+// The options of the parsed command line, without files, for a program that declares the same ones.
 std::vector<std::string> given_options(const CLI::App& command);
 
 // The options of contort-render.
@@ -48,8 +48,8 @@ struct RenderOptions : PictureOptions {
   std::string gl = "auto";
   std::string settings_file;
   CheckSettings settings{};
-  bool clips = false;  // with `many`: beside each strip
-  bool views = false;  // the same
+  bool clips = false;  // with `many`: also writes an animation beside each strip
+  bool views = false;  // with `many`: also writes the cameras of each strip
   bool many = false;
 };
 

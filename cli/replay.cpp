@@ -1,4 +1,4 @@
-// contort replay: does a stored case still do what it says? Of a corpus: what becomes of each bucket?
+// contort replay: replays a stored case and compares the result with the stored one; for a corpus, updates each bucket.
 #include "corpus/replay.h"
 
 #include <CLI/CLI.hpp>
@@ -33,7 +33,7 @@ using Clock = std::chrono::steady_clock;
 struct ReplayOptions {
   std::vector<std::string> paths;
   bool json = false;
-  std::string against;  // another program; "": none
+  std::string against;  // another program to compare with; "": none
   std::string level;
   bool update = false;
   std::string time;
@@ -53,7 +53,7 @@ Json as_json(const std::string& path, const Family& family, const Replay& result
   return out;
 }
 
-// Failing as before is what a stored case is for; anything else is a change that somebody has to look at.
+// A case that fails as before is expected; every change needs attention.
 int exit_code_of(Verdict verdict) {
   switch (verdict) {
     case Verdict::same:
@@ -65,20 +65,20 @@ int exit_code_of(Verdict verdict) {
   return kInternal;
 }
 
-// A replay fails a build when what it runs still fails, in one way or another, and that is not known.
+// A replay gates if the bucket still fails, in any way, and is not known.
 bool gates(const BucketReplay& ran, const Bucket& next, const std::string& today, const Baseline& known) {
   const bool fails = ran.shown == Shown::fails || (ran.shown == Shown::gone && ran.verdict == Verdict::different);
   return fails && is_gating(next, today, known, {});
 }
 
 struct Totals {
-  std::map<Verdict, int> verdicts;  // of cases
+  std::map<Verdict, int> verdicts;  // verdicts of cases
   int cases = 0;
   int buckets = 0;
-  std::map<Outcome, int> files, failures;  // case files by themselves, and the buckets of corpora
-  std::map<BucketState, int> states;  // of buckets, afterwards
+  std::map<Outcome, int> files, failures;  // case files given by themselves, and buckets of corpora
+  std::map<BucketState, int> states;  // states of buckets, afterwards
   int gating = 0;
-  int skipped = 0;  // buckets that the time did not reach
+  int skipped = 0;  // buckets that were skipped because time was up
   int stale = 0;    // quarantines that always pass
 };
 
@@ -162,7 +162,7 @@ class ReplayCommand {
     ++totals_.files[cli::outcome_of(verdict)];
   }
 
-  // Sums up all verdicts in a sentence. The line of a single case says its verdict already.
+  // Prints all verdicts in one sentence. A single case has its verdict in its line already.
   void print_tallies() const {
     int files = 0;
     for (const auto& [outcome, count] : totals_.files) files += count;
@@ -182,7 +182,7 @@ class ReplayCommand {
     return ", the generator has changed from build " + before + " to " + manifest_.build;
   }
 
-  // Bad input says more than findings, and findings say more than a replay that was not steady.
+  // Bad input takes precedence over findings, and findings over unsteady replays.
   void raise(int code) {
     const auto weight = [](int c) { return c == kInternal ? 4 : c == kBadInput ? 3 : c == kFindings ? 2 : c != 0; };
     if (weight(code) > weight(context_.exit_code)) context_.exit_code = code;
@@ -194,7 +194,8 @@ class ReplayCommand {
                            "contort " CONTORT_VERSION + (options_.build.empty() ? "" : " " + options_.build)};
     const auto change = [&](const Bucket& now) -> Result<Bucket> { return next_state(now, seen, context_.day()); };
     Result<Bucket> next = options_.update ? corpus.change(bucket, change) : change(bucket);
-    if (!next && next.issue().code == "file.unwritable") {  // the first says why; what is seen is told all the same
+    // The first bucket prints the reason; results are still printed.
+    if (!next && next.issue().code == "file.unwritable") {
       if (++unwritten_ == 1) context_.fail(next.issue(), kInternal);
       next = change(bucket);
     }
@@ -221,7 +222,7 @@ class ReplayCommand {
     if (changed && next.state == BucketState::flaky) raise(kInconclusive);
   }
 
-  // The case that says most: the first of the bucket's verdict.
+  // The most informative case: the first one with the bucket's verdict.
   static const CaseReplay* shown_case(const BucketReplay& ran) {
     for (const CaseReplay& one : ran.cases)
       if (one.result.verdict == ran.verdict) return &one;
@@ -232,7 +233,7 @@ class ReplayCommand {
     return ran.shown == Shown::unsteady ? Outcome::unsteady : cli::outcome_of(ran.verdict);
   }
 
-  // By its headline; by its check and place alone if its minimal case cannot be read.
+  // The bucket's headline; or its check and subject if its minimal case cannot be read.
   static std::string name_of(const Corpus& corpus, Bucket bucket) {
     if (const Result<Case> minimal = corpus.minimal_of(bucket); minimal) return failure_text(*minimal);
     return failure_in_words(bucket.family.check, bucket.family.subject) + " (" + bucket.family.character + ")";

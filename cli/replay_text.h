@@ -1,4 +1,4 @@
-// The result of a replay in words, for people who know neither the checks nor the program.
+// The result of a replay in plain words.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace contort::cli {
 
-// Verdicts on stored cases and failures, in the words of people.
+// Verdicts on stored cases and failures, for people.
 enum class Outcome : std::uint8_t { fails, differs, passes, refused, unsteady };
 Outcome outcome_of(Verdict verdict);
 std::string outcome_words(Outcome outcome);  // "still fails"
@@ -22,12 +22,12 @@ std::string tally_text(const std::map<Outcome, int>& outcomes);
 // A failure by its headline and its character: "Elbow leaves its range during swing (hero)".
 std::string failure_text(const Case& minimal);
 
-// The failure of a case and what its replay shows: "Elbow leaves its range during swing (hero), 0.21 rad (12°) beyond
-// the limit at frame 30". For a case that was refused, the reason.
+// The failure of a case and the result of its replay: "Elbow leaves its range during swing (hero), 0.21 rad (12°)
+// beyond the limit at frame 30". For a refused case, the reason.
 std::string case_text(const Case& stored, const Replay& result);
 
-// How a motion that fails as before differs from the stored one, with a comma before it; "" if it does not differ, or
-// does not fail as before.
+// The difference between a stored motion and one that still fails, with a comma before it; "" if they are equal, or if
+// it fails in another way.
 std::string change_text(const Replay& result);
 
 // "new"; "was fixed, now regressed".

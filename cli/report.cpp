@@ -1,4 +1,4 @@
-// contort report: corpus to HTML, and to what CI reads.
+// contort report: writes a corpus as HTML, and as files for CI.
 #include "cli/against.h"
 #include "cli/report.h"
 
@@ -52,7 +52,8 @@ struct Media {
   std::vector<CasePage> cases;
 };
 
-// As code hosts want it: below the folder where we are, which in CI is the project's, or else below the corpus.
+// The path in the form that code hosts need: relative to the present folder, which in CI is the project's, or else to
+// the corpus.
 std::string location_of(const Corpus& corpus, const std::string& path) {
   std::error_code error;
   const std::string here = std::filesystem::proximate(path, error).generic_string();
@@ -60,12 +61,11 @@ std::string location_of(const Corpus& corpus, const std::string& path) {
   return is_below ? here : std::filesystem::proximate(path, corpus.folder(), error).generic_string();
 }
 
-// Goes up when strips of the same case show something else: 2 joins nearest points and has skins,
-// 3 rounds its numbers to three digits.
+// Must change when strips of the same case look different: 2 joins nearest points and has skins, 3 rounds its numbers
+// to three digits.
 constexpr char kPictureStyle[] = "style 3";
 
-// Another picture has another name, so that one that is there already is right: what moves, what is written in it, and
-// by which limits it is judged.
+// The name hashes everything that is drawn, so an existing file with this name need not be drawn again.
 std::string picture_name(const ReportRow& row, const Case& stored, const std::string& settings) {
   const std::string shown = print_spec(stored.spec) + stored.expect.motion_hash + row.replay_command + settings +
                             CONTORT_VERSION + kPictureStyle;
@@ -76,16 +76,16 @@ std::string picture_name(const ReportRow& row, const Case& stored, const std::st
 struct RowContext {
   const Corpus& corpus;
   const Baseline& known;
-  const GroupCounts& now;        // by the runs of this corpus that the baseline does not have
+  const GroupCounts& now;        // counts of this corpus' runs that the baseline does not have
   const std::string settings;  // the text of --settings
   const Context& context;
   MeasuredValues& measured;
 };
 
-// A trace has four hex digits a frame (corpus/case.h).
+// A trace has four hex digits per frame (corpus/case.h).
 int frames_of_trace(const std::string& trace) { return static_cast<int>(trace.size() / 4); }
 
-// A row with what the case says by itself. `key` names the files of the row.
+// Makes a row from the data of the case alone. `key` is part of the names of the row's files.
 ReportRow row_of_case(const Case& stored, const std::string& path, const std::string& key, const RowContext& with) {
   ReportRow row;
   row.family = print_family(family_of(stored)), row.check = stored.expect.check, row.key = key;
@@ -126,7 +126,7 @@ ReportRow row_of(const Bucket& bucket, const Case& stored, const RowContext& wit
   return row;
 }
 
-// A row for a failure that is in no bucket. One that did not come again gates nothing: the run has said so.
+// Makes a row for a failure without a bucket. A failure that did not show again does not gate: the run has reported it.
 ReportRow row_of(const Lead& lead, const std::set<Family>& known, const RowContext& with) {
   const std::string path = lead_path(with.corpus, lead);
   const std::string name = std::filesystem::path(path).stem().string();
@@ -143,13 +143,13 @@ ReportRow row_of(const Lead& lead, const std::set<Family>& known, const RowConte
 void add_row(ReportRow row, const CasePage& page, const std::string& out, ReportModel& model, Media& media) {
   model.rows.push_back(std::move(row));
   const ReportRow& added = model.rows.back();
-  if (!added.has_motion) return;  // to draw it would end the renderer, too
+  if (!added.has_motion) return;  // drawing it would end the renderer too
   if (!added.strip.empty()) media.pictures.push_back({page.folder + "/" + page.minimal, out + "/" + added.strip});
   media.cases.push_back(page);
   media.cases.back().strip = added.strip;
 }
 
-// Answers the buckets with their minimal cases.
+// Adds a row for each bucket, and returns the buckets with their minimal cases.
 std::vector<CauseMember> add_bucket_rows(const std::vector<Bucket>& buckets, const RowContext& with, ReportModel& model,
                                          Media& media, const std::string& out, std::vector<Issue>& damaged) {
   std::vector<CauseMember> members = cause_members(with.corpus, buckets, damaged);
@@ -171,13 +171,13 @@ void add_lead_rows(const std::vector<Bucket>& buckets, const RowContext& with, R
   }
 }
 
-// Rows in the report's order (renders/variety.h), so that equal corpora give equal pages.
+// Adds the rows in the report's order (renders/variety.h), so that equal corpora give equal pages.
 void fill_rows(const Corpus& corpus, const Baseline& known, MeasuredValues measured, ReportModel& model, Media& media,
                const std::string& out, Context& context) {
   std::vector<Issue> damaged;
   const Result<std::string> read = read_file(context.settings_file, json_fields::kMaxDocumentBytes);
-  // They were read before; without --settings there is no file.
-  std::vector<Issue> of_runs;  // add_runs tells them
+  // The settings were read before without error; without --settings there is no file.
+  std::vector<Issue> of_runs;  // add_runs reports them
   const std::vector<RunRecord> runs = runs_of(corpus, of_runs);
   const GroupCounts now = group_counts_of(runs, known.runs);
   const RowContext with{corpus, known, now, read ? *read : "", context, measured};
@@ -187,11 +187,11 @@ void fill_rows(const Corpus& corpus, const Baseline& known, MeasuredValues measu
   add_lead_rows(buckets, with, model, media, out, damaged);
   add_cause_rows(members, runs, known, now, model);
   if (const Result<Done> added = add_conditions(corpus, members, model); !added) damaged.push_back(added.issue());
-  for (const Issue& issue : damaged) context.fail(issue);  // reported, and the rest is still shown
+  for (const Issue& issue : damaged) context.fail(issue);  // reported; everything else is still shown
   order_rows(model.rows);
 }
 
-// `seen`: cases of all runs, by family.
+// `seen` has the number of cases of all runs, by family.
 void count_totals(const std::map<std::string, std::int64_t>& seen, ReportModel& model) {
   std::set<std::string> families;
   for (const ReportRow& row : model.rows) families.insert(row.family);
@@ -202,7 +202,7 @@ void count_totals(const std::map<std::string, std::int64_t>& seen, ReportModel& 
     if (const auto found = seen.find(family); found != seen.end()) model.findings += found->second;
 }
 
-// Gives the cases that showed each family.
+// Returns the number of cases that showed each family.
 std::map<std::string, std::int64_t> add_runs(const Corpus& corpus, ReportModel& model, Context& context) {
   std::vector<Issue> damaged;
   std::map<std::string, std::int64_t> tested, seen;
@@ -223,7 +223,7 @@ std::map<std::string, std::int64_t> add_runs(const Corpus& corpus, ReportModel& 
   return seen;
 }
 
-// Adds the actions that the characters which were tried could have done, and never did: with 0.
+// Adds the possible actions of the tested characters that never occurred, with count 0.
 void add_never_tested(Generator& generator, ReportModel& model) {
   std::map<std::string, std::int64_t> tested(model.tested.begin(), model.tested.end());
   for_variants(*generator.manifest().library, [&](const Character& character) {
@@ -233,7 +233,7 @@ void add_never_tested(Generator& generator, ReportModel& model) {
   model.tested.assign(tested.begin(), tested.end());
 }
 
-// The strip, its moving picture, and from where it is seen. Drawn in this order.
+// The strip, its animation, and its cameras, in the order of drawing.
 std::vector<std::string> files_of(const Picture& picture) {
   const auto beside = [&](const char* kind) {
     return std::filesystem::path(picture.png).replace_extension(kind).string();
@@ -246,14 +246,14 @@ bool is_drawn(const Picture& picture) {
   return std::ranges::all_of(files_of(picture), [&](const auto& path) { return std::filesystem::exists(path, error); });
 }
 
-// Pictures that are there already stay; those that no row shows any more go.
+// Keeps the pictures that exist and are needed, and removes those that no row shows any more.
 void tidy(const std::string& folder, std::vector<Picture>& pictures) {
   std::set<std::string> wanted;
   for (const Picture& picture : pictures)
     for (const std::string& path : files_of(picture)) wanted.insert(std::filesystem::path(path).filename().string());
   remove_old(folder, is_picture_file, wanted);
   std::error_code error;
-  for (const Picture& picture : pictures)  // a link would be followed, and what it leads to is none of the report's
+  for (const Picture& picture : pictures)  // a link would be followed, and its target is not the report's
     for (const std::string& path : files_of(picture))
       if (std::filesystem::is_symlink(path, error)) std::filesystem::remove(path, error);
   std::erase_if(pictures, is_drawn);
@@ -277,7 +277,7 @@ int draw(const std::vector<Picture>& pictures, const Context& context) {
 
 void write_page(const ReportRequest& request, const ReportModel& model, Media media, Generator& generator,
                 Context& context) {
-  // Its summary comes first: it is what tells a folder that holds a report.
+  // The summary comes first, because it marks the folder as a report's.
   if (const Result<Done> written = write_report(model, request.folder); !written)
     return context.fail(written.issue(), exit_of(written.issue()));
   if (const Result<Done> made = make_folder(request.folder + "/strips"); !made)
@@ -314,7 +314,8 @@ void make_report(const ReportRequest& request, Generator& generator, Context& co
   model.title = "Contort report";
   model.tool = CONTORT_VERSION;
   model.has_baseline = !request.outputs.baseline.empty();
-  model.has_engine = has_engine() && context.sources.generator.empty();  // the page plays specs with the built-in one
+  // The page plays specs with the built-in generator.
+  model.has_engine = has_engine() && context.sources.generator.empty();
   Media media;
   const MeasuredValues measured(*generator.manifest().library, *settings);
   fill_rows(*corpus, *known, measured, model, media, request.folder, context);

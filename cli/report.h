@@ -10,14 +10,14 @@ namespace contort::cli {
 
 struct ReportRequest {
   std::string corpus;
-  std::string folder;       // of the page; "" for none
-  std::string single_file;  // the page with all that lies beside it, in one file; "" for none
-  bool announce = true;     // print where it is
-  OutputRequest outputs{};  // for CI
-  bool gate = false;        // exit with 1 where something gates
+  std::string folder;       // folder of the page; "" for none
+  std::string single_file;  // file that contains the page and all its files; "" for none
+  bool announce = true;     // print the report's path
+  OutputRequest outputs{};  // files for CI
+  bool gate = false;        // exit with 1 if a failure gates
 };
 
-// Writes what CI reads first, then the page, and the pictures after it, so that no picture can cost a finding.
+// Writes the files for CI first, then the page, then the pictures, so that an error in a picture loses no finding.
 void make_report(const ReportRequest& request, Generator& generator, Context& context);
 
 }  // namespace contort::cli

@@ -10,7 +10,7 @@ namespace contort::cli {
 
 namespace {
 
-// Without a baseline a cause is new if nobody has looked at any of its failures.
+// Without a baseline, a cause is new if nobody has acknowledged any of its failures.
 CauseNews news_without_baseline(const CauseRow& row) {
   const auto is_fresh = [](const CauseMember& member) { return member.bucket.state == BucketState::fresh; };
   return std::ranges::all_of(row.members, is_fresh) ? CauseNews::fresh : CauseNews::known;

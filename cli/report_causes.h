@@ -9,7 +9,7 @@
 
 namespace contort::cli {
 
-// Adds the causes of failures that are not fixed, and to each row its headline.
+// Adds the causes of failures that are not fixed, and the headline of its cause to each row.
 void add_cause_rows(std::vector<CauseMember> members, const std::vector<RunRecord>& runs, const Baseline& known,
                     const GroupCounts& now, ReportModel& model);
 

@@ -17,7 +17,7 @@ bool is_hex(std::string_view text, std::size_t digits) {
   return text.size() == digits && text.find_first_not_of("0123456789abcdef") == text.npos;
 }
 
-// "joint_range-0123456789ab"
+// Returns true for names such as "joint_range-0123456789ab".
 bool is_key(std::string_view text) {
   const std::size_t dash = text.find('-');
   return dash != text.npos && dash > 0 && is_hex(text.substr(dash + 1), 12);

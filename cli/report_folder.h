@@ -1,4 +1,4 @@
-// The files of a report's folder. Other people's files may lie beside them.
+// The files of a report's folder, in which there may also be other people's files.
 #pragma once
 
 #include <set>
@@ -8,7 +8,7 @@
 
 namespace contort::cli {
 
-// Returns true if only a report gives such names: "<check>-<12 hex digits>", with "-<8 hex digits>" for pictures.
+// Returns true for names that only a report uses: "<check>-<12 hex digits>", with "-<8 hex digits>" for pictures.
 bool is_case_file(const std::string& name);     // .js
 bool is_picture_file(const std::string& name);  // .png, .webp, and .js with the camera of a strip
 

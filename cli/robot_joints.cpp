@@ -12,14 +12,14 @@ namespace contort::cli {
 namespace {
 
 constexpr double kMost_deg = 360.0, kLeastSpeed_deg_s = 1.0, kGreatestSpeed_deg_s = 1e5;
-constexpr double kUnknownSpeed_deg_s = 3000.0;  // as an import has it
-constexpr double kMostMultiplier = 1000.0, kMostOffset_rad = 20.0 * kPi;  // that a manifest may have
+constexpr double kUnknownSpeed_deg_s = 3000.0;  // as in an import
+constexpr double kMostMultiplier = 1000.0, kMostOffset_rad = 20.0 * kPi;  // greatest values in a manifest
 
 std::array<double, 4> in_order(const Quat& q) { return {q.x, q.y, q.z, q.w}; }
 
 const RobotJoint* only_joint(const RobotBody& body) { return body.joints.size() == 1 ? &body.joints[0] : nullptr; }
 
-// The rest pose is the file's where that is within the range, and else the middle of the range.
+// The rest pose is the file's if that is within the range, otherwise the middle of the range.
 double rest_of(const RobotJoint& joint) {
   const bool is_within = joint.low <= joint.at_rest && joint.at_rest <= joint.high;
   return is_within || !std::isfinite(joint.low + joint.high) ? joint.at_rest : 0.5 * (joint.low + joint.high);
@@ -48,7 +48,8 @@ struct JudgedShape {
   unsigned partners = 1;
 };
 
-// Joints turn about their anchor, so that frames of a guest have their origin there, and bodies hang beside it.
+// Makes the joints. The frames of a guest have their origins at the joints' anchors, so bodies are placed relative to
+// these.
 class RobotJoints {
  public:
   explicit RobotJoints(const RobotModel& robot) : robot_(robot) {}
@@ -115,13 +116,13 @@ class RobotJoints {
     out_.colliders.push_back(out);
   }
 
-  // Returns the only joint of a body if it is a hinge, else null.
+  // Returns the only joint of a body if it is a hinge, otherwise null.
   const RobotJoint* hinge_of(std::size_t b) const {
     const RobotJoint* joint = only_joint(robot_.bodies[b]);
     return joint != nullptr && joint->kind == RobotJointKind::hinge ? joint : nullptr;
   }
 
-  // Angles of the file become angles from rest. Travels are fixed here, so that they neither lead nor follow.
+  // Converts angles of the file to angles from rest. Travels are fixed here, so they neither lead nor follow.
   void add_follower(std::size_t b) {
     const RobotJoint* own = hinge_of(b);
     if (own == nullptr || own->follows.empty() || own->follows == own->name) return;

@@ -6,9 +6,9 @@
 
 namespace contort::cli {
 
-// A joint for each body, in the file's axes, named like its only joint in the file, or like the body if there are none,
-// several, or one of that name already. Travels are fixed, and a body with several joints hangs on a ball without
-// limits. Shapes are boxes, spheres and capsules; hulls and meshes are left out.
+// One joint for each body, in the file's axes. It has the name of the body's only joint; or the body's name if there
+// are no or several joints, or if that name is taken. Travels are fixed, and a body with several joints gets a ball
+// without limits. Shapes are boxes, spheres and capsules; hulls and meshes are left out.
 GuestCharacter joints_of_robot(const RobotModel& robot);
 
 }  // namespace contort::cli

@@ -23,7 +23,7 @@ std::vector<std::string> files_of(const std::string& folder) {
   return paths;
 }
 
-// Why it does not build, "" where it does. One that ends the process is worth a case of the run.
+// The reason for which a spec does not build; "" if it does. A spec that ends the process is a case for the run.
 std::string refusal_of(const Spec& spec, Generator& generator) {
   const Result<Ending> ending = isolate([&] {
     const Result<Admission> admitted = generator.admit(spec);

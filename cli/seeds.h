@@ -1,4 +1,4 @@
-// Specs that a run begins with.
+// Specs with which a run begins.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace contort::cli {
 
-// The specs of all specs and cases (*.json) of a folder, in the order of their names. Codes of reading them;
-// seeds.none, and seeds.refused for one that does not build: a night that tests nothing must not look clean.
+// The specs of all specs and cases (*.json) in a folder, in the order of their names. Codes of reading them;
+// seeds.none; and seeds.refused for a spec that does not build, because a run that tests nothing must not look clean.
 Result<std::vector<Spec>> read_seeds(const std::string& folder, Generator& generator);
 
 }  // namespace contort::cli

@@ -1,4 +1,4 @@
-// contort serve: browse, triage and drive characters from a web page.
+// contort serve: shows a corpus for triage, and plays characters, in a web page.
 #include <signal.h>
 #include <unistd.h>
 
@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kConnectionsBesideStreams = 96;  // in total; half as many of one client
+constexpr int kConnectionsBesideStreams = 96;  // connections besides streams; half as many for one client
 
 struct ServeOptions {
   server::HttpConfig http;
@@ -85,7 +85,7 @@ std::vector<std::string> own_call(const Context& context) {
   return call;
 }
 
-// Threads inherit it: only the main thread hears of signals, when it asks.
+// All threads inherit the blocked signals; only the main thread receives them, when it waits for one.
 sigset_t block_signals() {
   sigset_t ends;
   sigemptyset(&ends);
@@ -133,7 +133,7 @@ server::AppConfig app_config(const ServeOptions& options, int port, const server
   return config;
 }
 
-// Signals are blocked first, so that from then on none ends the server without its folder being removed.
+// Signals are blocked first, so that no signal ends the server before its folder is removed.
 void serve(const ServeOptions& options, Generator& generator, const CheckSettings& settings, Context& context) {
   const std::string about = catalogue(generator, options);
   const Result<std::string> library =
@@ -160,10 +160,10 @@ void serve(const ServeOptions& options, Generator& generator, const CheckSetting
   answers.join();
 }
 
-// A corpus that is not there is a mistyped one: it is not made here.
+// A missing corpus is probably a mistyped name, so it is not created.
 Result<std::string> open_corpus(const ServeOptions& options) {
   Result<Corpus> corpus = Corpus::open(options.corpus);
-  if (corpus && !options.read_only) corpus = Corpus::create(options.corpus);  // finds out whether it can be written
+  if (corpus && !options.read_only) corpus = Corpus::create(options.corpus);  // checks whether the corpus is writable
   if (!corpus) return corpus.issue();
   return fs::absolute(options.corpus).string();
 }

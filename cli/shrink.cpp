@@ -1,4 +1,4 @@
-// contort shrink: a smaller spec with the same failure.
+// contort shrink: finds a smaller spec with the same failure.
 #include "fuzz/shrink.h"
 
 #include <CLI/CLI.hpp>
@@ -32,7 +32,7 @@ struct ShrinkOptions {
   ShrinkConfig config;
 };
 
-// The case as it fails now, or nothing with the reason printed.
+// The case as it fails now. If it does not fail, the reason is printed, and nothing is returned.
 std::optional<Case> failing_now(const ShrinkOptions& options, Generator& generator, const CheckSettings& settings,
                                 Context& context) {
   Result<Case> stored = read_case_input(options.input);
@@ -53,7 +53,8 @@ std::optional<Case> failing_now(const ShrinkOptions& options, Generator& generat
   return failing;
 }
 
-// The profile that it has to stay within: of the command line, else the built-in one that found the case, else none.
+// The profile within which it must stay: that of the command line; otherwise the built-in one that found the case;
+// otherwise none.
 Result<std::optional<Profile>> profile_of(const ShrinkOptions& options, const Case& original) {
   const std::string& found_with = original.provenance.profile;
   if (!options.profile.empty()) {
@@ -73,7 +74,7 @@ Result<std::optional<Profile>> profile_of(const ShrinkOptions& options, const Ca
 Result<ShrinkConfig> configure(const ShrinkOptions& options, const CheckSettings& settings) {
   ShrinkConfig config = options.config;
   config.checks = settings;
-  config.guarded = true;  // whatever a candidate does to its process, the user's stays
+  config.guarded = true;  // candidates may end their processes, but not the user's
   if (options.time.empty()) return config;
   const Result<double> seconds = parse_time_s(options.time);
   if (!seconds) return Issue{seconds.issue().code, "", "--time: " + seconds.issue().text};

@@ -14,10 +14,10 @@ namespace contort::cli {
 
 namespace {
 
-// A case in one of the two programs.
+// The result of a case in one of the two programs.
 struct SideResult {
-  std::string verdict;              // or how the program ended
-  std::optional<Execution> motion;  // no value if the program made none
+  std::string verdict;              // verdict, or the way in which the program ended
+  std::optional<Execution> motion;  // empty if the program made no motion
 };
 
 SideResult play(const Case& stored, Evaluator& evaluator) {

@@ -1,4 +1,5 @@
-// contort replay --generator A --against B: every minimal case in both programs, and where their motions part.
+// contort replay --generator A --against B: runs every minimal case in both programs, and finds the first difference of
+// their motions.
 #pragma once
 
 #include <string>

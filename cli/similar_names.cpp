@@ -8,7 +8,7 @@ namespace contort::cli {
 
 namespace {
 
-// The beginning that all names of the map share.
+// The common beginning of all names in the map.
 std::string shared_beginning(const std::map<std::string, std::string>& joints) {
   std::string shared = joints.begin()->first;
   for (const auto& [node, joint] : joints) {
@@ -24,7 +24,7 @@ std::set<std::string> names_of(const Asset& asset) {
   return names;
 }
 
-// The prefixes before the names that the map has, by node of the map.
+// The prefixes before a name of the map, for a node of the map.
 std::set<std::string> prefixes(const std::set<std::string>& names, const std::string& bare) {
   std::set<std::string> out;
   for (const std::string& name : names)

@@ -9,8 +9,8 @@
 
 namespace contort::cli {
 
-// Maps the nodes of the file that have the names of a map (node -> joint) but for a prefix to these names. Empty if the
-// file has one of the names as it is, or if fewer than half of them, or fewer than two, are found with the same prefix.
+// Maps nodes of the file to names of the map (node -> joint) from which they differ only by a prefix. Empty if the file
+// has one of the names itself, or if fewer than half of them, or fewer than two, are found with the same prefix.
 std::map<std::string, std::string> similar_names(const Asset& asset, const std::map<std::string, std::string>& joints);
 
 }  // namespace contort::cli

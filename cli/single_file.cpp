@@ -17,10 +17,10 @@ namespace contort::cli {
 
 namespace {
 
-// The size that mail takes: attachments above 25 MB are refused by most, and base64 adds a third on the way.
+// The greatest size for mail: most servers refuse attachments above 25 MB, and base64 adds a third.
 constexpr std::size_t kMostBytes = 18'000'000;
 
-// The rows that the first screen shows come first, so that they have their pictures if not all have room.
+// The rows of the first screen come first, so that they have pictures even if not all have room.
 std::vector<const ReportRow*> rows_by_use(const ReportModel& model) {
   std::map<std::string_view, std::size_t> place_of_key;
   for (const ReportCause& cause : model.causes) place_of_key.emplace(cause.key, place_of_key.size());

@@ -17,7 +17,7 @@ namespace contort::cli {
 
 namespace {
 
-// Standard output gets a file that only reads: what is printed is lost, and that it is lost shows at the end.
+// A closed stdout is opened read-only, so that writes fail and the error is reported at the end.
 void open_closed_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF) {
@@ -26,7 +26,8 @@ void open_closed_streams() {
     }
 }
 
-// A pipe without a reader says so to poll, whenever it is asked; errno may be of a write long ago.
+// Returns true if standard output is a pipe without a reader. poll reports this at any time, while errno may be from an
+// earlier write.
 bool nobody_reads() {
   pollfd output{STDOUT_FILENO, POLLOUT, 0};
   return ::poll(&output, 1, 0) == 1 && (output.revents & (POLLERR | POLLHUP)) != 0;
@@ -63,7 +64,7 @@ int run_guarded(int argc, char** argv, int (*run)(int argc, char** argv)) {
 int run_to_the_end(int argc, char** argv, int (*run)(int argc, char** argv)) {
   open_closed_streams();
   std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to report, like a full disk
+  std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit becomes an error to report, like a full disk
   return close_output(run_guarded(argc, argv, run));
 }
 

@@ -19,7 +19,7 @@ std::string id_of_file(const std::string& path) {
   return content_id(text ? *text : "");
 }
 
-// Picks the files that load_folder and load_recordings read. Reports and corpora may lie in the same folder.
+// Returns true for files that load_folder and load_recordings read. Reports and corpora may be in the same folder.
 bool is_of_library(const fs::directory_entry& entry) {
   constexpr std::array<std::string_view, 5> kKinds = {".json", ".glb", ".gltf", ".bin", ".bvh"};
   std::error_code error;

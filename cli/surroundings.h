@@ -1,4 +1,4 @@
-// The surroundings that all cases depend on beside their own spec.
+// The surroundings on which all cases depend, besides their own specs.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// contort tables: builds the aim tables of a library's characters beforehand and keeps them in a folder.
+// contort tables: computes the aim tables of a library's characters in advance and stores them in a folder.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The chains with which a part can aim: one for each of its points.
+// The chains with which a part can aim, one for each of its points.
 std::vector<AimChain> chains_of(const Character& character, const Part& part) {
   std::vector<AimChain> chains;
   const std::optional<Action> aim = find_action(character, part, "aim");
@@ -31,7 +31,7 @@ std::vector<AimChain> chains_of(const Character& character, const Part& part) {
   return chains;
 }
 
-// By file name, so that characters with equal arms share one.
+// The geometries by file name, so that characters with equal arms share one.
 std::map<std::string, AimGeometry> geometries_of(const Library& library) {
   std::map<std::string, AimGeometry> geometries;
   for_variants(library, [&](const Character& character) {
@@ -82,7 +82,8 @@ void add_tables(CLI::App& app, Context& context) {
     const Library* library = context.load_library();
     if (library == nullptr) return;
     if (const Result<Done> own = check_library_folder(*folder); !own) return context.fail(own.issue());
-    if (const Result<Done> inside = check_inside(*folder, *folder + "/aim"); !inside)  // what is old there is removed
+    // Old files in this folder are removed.
+    if (const Result<Done> inside = check_inside(*folder, *folder + "/aim"); !inside)
       return context.fail(inside.issue());
     const Result<Counts> counts = update(*folder + "/aim", geometries_of(*library));
     if (!counts) return context.fail(counts.issue(), kInternal);

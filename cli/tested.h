@@ -10,12 +10,12 @@
 namespace contort::cli {
 
 struct Tested {
-  std::unique_ptr<Library> library;  // of the built-in generator, where folders add to the stock
+  std::unique_ptr<Library> library;  // library of the built-in generator, if folders add to the stock
   std::unique_ptr<Generator> generator;
 };
 
-// The program of --generator, or the built-in generator with the stock library and these folders. Codes of
-// load_libraries, GuestGenerator::start, and generator.own_library for both at once.
+// Loads the program of --generator, or the built-in generator with the stock library and these folders. Codes of
+// load_libraries, GuestGenerator::start, and generator.own_library if both are given.
 Result<Tested> load_tested(const Sources& sources);
 
 // The name of the program under test; "" for the built-in generator.
@@ -24,7 +24,7 @@ std::string program_name(const Manifest& manifest);
 // Refuses a case of another generator than the one under test. Code replay.other_generator.
 Result<Done> check_generator(const Case& stored, const Manifest& manifest);
 
-// The same for the first case of a corpus that can be read.
+// Does the same for the first readable case of a corpus.
 Result<Done> check_generator(const Corpus& corpus, const Manifest& manifest);
 
 }  // namespace contort::cli

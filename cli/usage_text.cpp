@@ -15,10 +15,10 @@ const CLI::App& deepest_called(const CLI::App& app) {
   return called.empty() ? app : deepest_called(*called.front());
 }
 
-// "--charcter" of "--charcter=mech".
+// The name of an option: "--charcter" in "--charcter=mech".
 std::string name_of(const std::string& word) { return word.substr(0, word.find('=')); }
 
-// The first word, behind the command where one was called, that is no option and no value of one.
+// The first word after the command that is neither an option nor the value of one.
 std::string first_word(const CLI::App& command, bool is_program, int argc, char** argv) {
   bool was_called = is_program;
   for (int i = 1; i < argc; ++i) {
@@ -31,7 +31,7 @@ std::string first_word(const CLI::App& command, bool is_program, int argc, char*
   return "";
 }
 
-// The option that the parser did not know: the first that neither the command nor the program has.
+// The option that the parser does not know: the first one that neither the command nor the program has.
 std::string unknown_option(const CLI::App& app, const CLI::App& command, int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string name = name_of(argv[i]);

@@ -1,4 +1,4 @@
-// The characters that a library can make, as far as it matters what their parts can do.
+// The characters that a library can make, as far as they differ in the abilities of their parts.
 #pragma once
 
 #include <functional>
@@ -8,8 +8,8 @@
 
 namespace contort::cli {
 
-// Calls visit with every character as it is by default, with each part that may stand in a slot, and with each object
-// at each socket that it is made for. Not with all their combinations.
+// Calls visit with every default character, then with each alternative part in its slot, and with each object at each
+// socket that it is made for; but not with combinations of these.
 void for_variants(const Library& library, const std::function<void(const Character&)>& visit);
 
 }  // namespace contort::cli

@@ -47,7 +47,7 @@ void mark(std::size_t i, StickFigure& out) {
   if (i < out.marked.size()) out.marked[i] = 1;
 }
 
-// The name of a node, or that with words behind it: "lwrist ry max".
+// Returns true for the name of a node, also with words after it: "lwrist ry max".
 bool is_about(const std::string& subject, const std::string& label) {
   return subject == label || (subject.starts_with(label) && subject[label.size()] == ' ');
 }
@@ -90,7 +90,7 @@ StickFigure pose_of_file(const Asset& asset, const AssetClip& clip, const WorstM
   const bool has_joints = std::ranges::any_of(asset.nodes, &AssetNode::is_joint);
   StickFigure out;
   std::vector<Rigid> world(asset.nodes.size());
-  std::vector<int> point_of(asset.nodes.size(), -1);  // of a node, or of the nearest one above that has a point
+  std::vector<int> point_of(asset.nodes.size(), -1);  // point of each node, or of the nearest node above with a point
   for (const int node : asset.order) {
     const AssetNode& own = asset.nodes[at(node)];
     const Rigid in_parent{local[at(node)].rotation, local[at(node)].translation};

@@ -13,9 +13,9 @@ namespace contort::cli {
 
 struct WorstMoment {
   Finding finding;
-  std::string measured;          // "9000.0 deg/s, allowed 3000.0"; of a character's motion see measured_of
-  std::optional<double> time_s;  // of the clip; none for findings without a time
-  int frame = -1;                // of the character's motion; -1 if the finding is not about it
+  std::string measured;          // "9000.0 deg/s, allowed 3000.0"; for a character's motion as in measured_of
+  std::optional<double> time_s;  // time in the clip; empty for findings without a time
+  int frame = -1;                // frame of the character's motion; -1 if the finding is about the clip itself
 };
 
 // Returns nullopt if the clip has no finding.
@@ -24,8 +24,8 @@ std::optional<WorstMoment> worst_moment(const ClipReport& clip);
 // "joint_range 15, pop 3"
 std::string counts_of_checks(const ClipReport& clip);
 
-// The pose at that moment, of the character as the clip moves it, else of the file's own skeleton. The joints that the
-// finding is about are marked. No points if there is no finding.
+// The pose at that moment, of the moved character or, without one, of the file's own skeleton. The joints of the
+// finding are marked. Without a finding it has no points.
 StickFigure worst_pose(const ClipCharacter& on, const Animation& animation, const AssetClip& clip,
                        const ClipReport& report);
 

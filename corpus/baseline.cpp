@@ -30,13 +30,13 @@ Result<Baseline> from_corpus(const std::string& folder) {
   const std::vector<Bucket> gone(fixed, buckets.end());
   buckets.erase(fixed, buckets.end());
   for (const Bucket& bucket : buckets) known.add(bucket.id, bucket.family);
-  // Damage to a run's record leaves it uncounted; reports say so.
+  // A damaged record of a run is not counted here; reports list it.
   std::vector<Issue> of_runs;
   const std::vector<RunRecord> runs = runs_of(*corpus, of_runs);
   for (const RunRecord& run : runs) known.runs.insert(run.name);
   known.seen = group_counts_of(runs);
   for (const Bucket& bucket : gone) known.seen.of_family.erase(bucket.family);
-  // A bucket without a readable minimal case is known all the same.
+  // A bucket counts as known even if its minimal case is unreadable.
   known.causes = cause_ids(cause_members(*corpus, std::move(buckets), damaged));
   return known;
 }
@@ -46,7 +46,8 @@ std::string text_in(const Json& entry, const char* name) {
   return found != entry.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
-// A replay has "joint_range-0123456789ab" and what became of it; a list has the id and the state.
+// An entry of a replay has the bucket's folder ("joint_range-0123456789ab") and the verdict; an entry of a list has the
+// id and the state.
 Result<Done> add_entry(const Json& entry, const std::string& pointer, Baseline& known) {
   if (!entry.is_object()) return Issue{"baseline.no_id", pointer, "expected an object with an \"id\" or a \"bucket\""};
   const std::string id = text_in(entry, "id"), folder = text_in(entry, "bucket"), verdict = text_in(entry, "verdict");

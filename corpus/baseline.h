@@ -43,10 +43,10 @@ bool is_gating(const Bucket& bucket, const std::string& today, const Baseline& k
 std::set<Family> known_families(const std::vector<Bucket>& buckets, const std::string& today, const Baseline& known,
                                 const GroupCounts& now);
 
-// Adds what another baseline knows.
+// Adds another baseline.
 void add(const Baseline& more, Baseline& known);
 
-// Says of each cause whether it is news. Those that are new or more frequent come first; else the order stays.
+// Sets the news of each cause. Causes that are new or more frequent come first; otherwise the order stays.
 void mark_news(std::vector<CauseRow>& rows, const Baseline& known, const GroupCounts& now);
 
 }  // namespace contort

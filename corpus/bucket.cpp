@@ -22,10 +22,10 @@ using json_fields::Text;
 constexpr std::string_view kStateNames[] = {"new", "open", "fixed", "regressed", "flaky", "quarantined", "invalid"};
 
 constexpr std::size_t kIdDigits = 12;
-constexpr std::string_view kNames[] = {"/id", "/min", "/worst", "/orig"};  // what becomes a path
+constexpr std::string_view kNames[] = {"/id", "/min", "/worst", "/orig"};  // fields that become parts of paths
 
 const Rule kId{.text = Text::hex, .digits = kIdDigits, .required = true};
-// Each role has names of its own: who drops an original must never drop the minimal case or bucket.json.
+// The names of the roles differ, so that removing an original never removes the minimal case or bucket.json.
 Rule case_of(std::string_view begins) {
   return {.text = Text::file, .begins = begins, .ends = ".json", .may_be_empty = true};
 }
@@ -186,7 +186,7 @@ Result<Bucket> read_bucket_without_bad_names(const std::string& folder) {
   Result<Json> tree = json_fields::parse_document(*text);
   if (!tree) return tree.issue();
   Json left = *tree;
-  const std::string no_id(kIdDigits, '0');  // the field is required, so that it cannot be left out
+  const std::string no_id(kIdDigits, '0');  // stands for a missing id, because the field is required
   for (;;) {
     Result<Bucket> read = json_fields::read_document<Bucket>(left.dump(), "bucket");
     if (!read && !is_bad_name(read.issue())) return read;
@@ -207,7 +207,8 @@ bool is_untrusted(const Issue& issue) {
 
 Result<Done> write_bucket(const std::string& folder, const Bucket& bucket) {
   const std::string text = print_bucket(bucket);
-  // A bucket that nobody can read again would be lost: one with a name of 300 letters, say.
+  // Reads the text back first: a bucket that cannot be read again, such as one with a name of 300 letters, would be
+  // lost.
   if (const Result<Bucket> again = json_fields::read_document<Bucket>(text, "bucket"); !again) return again.issue();
   return write_inside(folder, "bucket.json", text);
 }

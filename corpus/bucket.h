@@ -25,7 +25,7 @@ std::string bucket_id(const Family& family, const std::string& features);
 // then the text itself.
 bool cheaper(const Spec& a, const Spec& b);
 
-// docs/reference/corpus.md describes the transitions. In files `fresh` is "new".
+// docs/reference/corpus.md describes the states and their transitions. In files `fresh` is "new".
 enum class BucketState { fresh, open, fixed, regressed, flaky, quarantined, invalid };
 std::string_view state_name(BucketState state);
 
@@ -34,15 +34,15 @@ struct Bucket {
   std::string check;
   Family family;
   std::string features;
-  int signature = 1;  // kSignatureVersion of the rules that named it; files of the first version do not have it
+  int signature = 1;  // kSignatureVersion of the rules that named the bucket; files of the first version do not have it
   BucketState state = BucketState::fresh;
   BucketState was = BucketState::fresh;  // the state before it became flaky or invalid; meaningless in other states
-  std::string owner;                     // open, quarantined: the person who is responsible
-  std::string ticket;                    // the ticket in which the work on it is tracked
-  std::string reason;                    // quarantined: the reason why it may fail
+  std::string owner;                     // open, quarantined: the person who is responsible for the failure
+  std::string ticket;                    // the ticket about the failure
+  std::string reason;                    // quarantined: the reason why the failure is tolerated
   std::string expires;                   // quarantined: the last day, YYYY-MM-DD
   std::string note;                      // a note by people
-  std::vector<std::string> passed_in;    // builds in which it was gone since it failed last, in their order
+  std::vector<std::string> passed_in;    // builds in which the failure was gone since it last showed, in their order
   int streak = 0;                        // number of successive replays that passed (quarantined) or were steady
                                          // (flaky)
   int changes = 0;                // number of changes to the fields above; of two copies the one with more changes is

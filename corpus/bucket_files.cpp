@@ -13,8 +13,8 @@ namespace contort {
 
 namespace {
 
-// The cheaper spec comes first. Equal specs that were found in different places differ in their provenance: then the
-// text decides, so that no order of adding does.
+// The cheaper spec comes first. Equal specs from different places differ in their provenance; then the text decides, so
+// that the order of adding does not matter.
 bool before(const Case& a, const Case& b) {
   return a.spec != b.spec ? cheaper(a.spec, b.spec) : print_case(a) < print_case(b);
 }
@@ -24,7 +24,7 @@ bool deeper(const Case& a, const Case& b) {
   return depth_of_a != depth_of_b ? depth_of_a > depth_of_b : before(a, b);
 }
 
-// A minimal case and the one that it was shrunk from, if that is there.
+// A minimal case, and the case that it was shrunk from, if there is one.
 struct Pair {
   const Case* minimal = nullptr;
   const Case* original = nullptr;
@@ -77,7 +77,8 @@ Result<Done> BucketFiles::put(std::string_view role, const Case& next, std::stri
 
 namespace {
 
-// Reads the bucket of a folder; one that is not there yet has its name alone, with the state of `source`.
+// Reads the bucket of a folder. If there is none yet, it returns a bucket with the name and state of `source`, but
+// without cases.
 Result<Bucket> present_bucket(const Bucket& source, const std::string& folder) {
   if (std::error_code error; std::filesystem::exists(folder + "/bucket.json", error)) return read_bucket(folder);
   Bucket bucket = source;

@@ -57,7 +57,7 @@ Expectation expectation_of(const Execution& execution, const Evaluation& evaluat
                      {},
                      {},
                      {}};
-  // JSON has neither infinity nor NaN; the one is stored as the other, which has its own spelling.
+  // JSON has neither infinity nor NaN. Infinity is stored as NaN, for which the format has a word.
   if (std::isinf(finding.worst_margin)) expect.worst_margin = std::numeric_limits<double>::quiet_NaN();
   if (std::isfinite(finding.depth)) expect.depth = finding.depth;
   expect.motion_hash = to_hex(evaluation.motion_hash);

@@ -31,13 +31,13 @@ struct Expectation {
                                // judged
   int limit_s = 0;             // for a timeout: the time limit that was exceeded, s
   int limit_MB = 0;            // for a memory failure: the limit that was exceeded, MB
-  std::string printed{};       // the last words of a generator that is a program of its own, before it ended
+  std::string printed{};       // the last output of a generator that is a program of its own, before it ended
   bool operator==(const Expectation&) const = default;
 };
 
 // The origin of the case. Not part of its identity.
 struct Provenance {
-  std::string tool;         // version of Contort that found it
+  std::string tool;         // version of Contort that found the failure
   std::int64_t seed = -1;   // seed of the run; -1: written by a person
   std::int64_t index = -1;  // index of the case in the run
   std::string shrunk_from;  // spec_id of the spec before shrinking; "" if it was not shrunk

@@ -32,7 +32,7 @@ std::string_view without_side(std::string_view slot) {
   return side.empty() ? slot : slot.substr(0, slot.size() - side.size() - 1);
 }
 
-// "arm_left/elbow max" as people say it: "left elbow".
+// The name of a subject in plain words: "arm_left/elbow max" becomes "left elbow".
 std::string body_in_words(std::string_view body) {
   for (const std::string_view end : {" min", " max"})
     if (body.ends_with(end)) body.remove_suffix(end.size());
@@ -50,7 +50,7 @@ std::string joined(const std::vector<std::string>& names, std::string_view betwe
   return text;
 }
 
-// The first few names, and how many others there are.
+// The first few names, and the number of the others.
 std::string first_joined(const std::vector<std::string>& names, std::string_view between) {
   constexpr std::size_t kMost = 4;
   if (names.size() <= kMost) return joined(names, between);
@@ -58,7 +58,7 @@ std::string first_joined(const std::vector<std::string>& names, std::string_view
          " others";
 }
 
-// The verb of each check; what it judges stands before it. Checks that are not listed say their name.
+// The verb of each check; the judged subject stands before it. Checks that are not listed are given by their name.
 struct Verb {
   std::string_view check, text;
 };
@@ -117,7 +117,7 @@ std::vector<std::string> disturbances_of(const Spec& spec) {
   return names;
 }
 
-// Surroundings as sentences name them.
+// The name of a part of the setting in a sentence.
 std::string setting_in_words(const std::string& name) {
   static constexpr std::pair<std::string_view, std::string_view> kWords[] = {
       {"ground", "on uneven ground"},        {"impact", "after an impact"},

@@ -11,7 +11,7 @@ namespace contort {
 
 namespace {
 
-constexpr double kHalfDepth = 3.0;  // scales at which depth counts half
+constexpr double kHalfDepth = 3.0;  // depth, in scales of the check, that counts half
 
 double weight_of(CheckKind kind) {
   switch (kind) {
@@ -32,7 +32,7 @@ bool comes_before(const CauseMember& a, const CauseMember& b) {
   return depth_a != depth_b ? depth_a > depth_b : a.path < b.path;
 }
 
-// Members are sorted by depth, so that of an even number the shallower one of the middle counts.
+// Members are sorted by depth. Of an even number, the shallower one of the middle counts.
 double median_depth(const std::vector<CauseMember>& members) {
   return depth_of(members[members.size() / 2].minimal.expect);
 }
@@ -53,7 +53,7 @@ CauseRow row_of(const std::string& id, std::vector<CauseMember> members, std::sp
   std::ranges::sort(members, comes_before);
   std::int64_t of_cases = 0;
   for (const RunRecord& run : runs) of_cases += run.cases;
-  // Shrinking may have met a failure that no whole case showed; then the case that was shrunk counts.
+  // Shrinking may have found a failure that no whole case showed; then the case that was shrunk counts.
   row.cases = std::max(most_cases(members, runs), std::min<std::int64_t>(of_cases, 1));
   const Case& deepest = members.front().minimal;
   const Cause cause = cause_of(deepest);

@@ -20,12 +20,12 @@ struct CauseMember {
   std::string path;  // path of the minimal case
 };
 
-// What a baseline (baseline.h) says of a cause.
+// The comparison of a cause with a baseline (baseline.h).
 enum class CauseNews : std::uint8_t {
-  known,  // the baseline has it, or saw its families about as often
-  fresh,  // the baseline does not have it, and chance does not explain how often it shows
-  more,   // the baseline has it, and chance does not explain how much more often it shows now
-  rare,   // the baseline never saw it, and it shows in too few groups to say whether anything changed
+  known,  // the baseline has the cause, or saw its families about as often
+  fresh,  // the baseline does not have the cause, and chance does not explain how often it shows
+  more,   // the baseline has the cause, and chance does not explain how much more often it shows now
+  rare,   // the baseline never saw the cause, and it shows in too few groups to decide whether anything changed
 };
 std::span<const std::string_view> cause_news_names();  // in the order of the enum: "known", "new", "more often", "rare"
 inline bool is_news(CauseNews news) { return news == CauseNews::fresh || news == CauseNews::more; }
@@ -44,8 +44,8 @@ struct CauseRow {
 // Reads the minimal cases of these buckets. Those that cannot be read are reported in `damaged`.
 std::vector<CauseMember> cause_members(const Corpus& corpus, std::vector<Bucket> buckets, std::vector<Issue>& damaged);
 
-// Groups members by cause. The most severe cause comes first, equally severe ones by id. `runs` say how often each
-// family was seen.
+// Groups members by cause. The most severe cause comes first, equally severe ones by id. `runs` give the number of
+// cases of each family.
 std::vector<CauseRow> causes_of(std::vector<CauseMember> members, std::span<const RunRecord> runs);
 
 // The ids of the causes of these members.

@@ -30,7 +30,7 @@ Result<Case> case_in(const Result<std::string>& text, const std::string& path) {
   return issue;
 }
 
-// A corpus from somebody else may hold links that lead to other folders.
+// A corpus from somebody else may contain links that lead to other folders.
 Result<Done> check_own_folders(const std::string& folder) {
   for (const char* own : {"/buckets", "/leads", "/runs", "/invalid", "/.lock"})
     if (const Result<Done> inside = check_inside(folder, folder + own); !inside) return inside;
@@ -54,11 +54,11 @@ Result<Corpus> Corpus::create(const std::string& folder) {
   if (const Result<Done> own = check_own_folders(folder); !own) return own.issue();
   for (const char* sub : {"/buckets", "/leads", "/runs"})
     if (const Result<Done> made = make_folder(folder + sub); !made) return made.issue();
-  // A folder that exists may still be read-only: find out now, not after an hour of fuzzing. Without a file, which a
-  // kill would leave behind.
+  // Reports a read-only folder now, not after an hour of fuzzing. It does so without a test file, which a kill would
+  // leave behind.
   if (::access((folder + "/leads").c_str(), W_OK | X_OK) != 0)
     return Issue{"file.unwritable", "", "cannot write into " + folder + "/leads: " + std::strerror(errno)};
-  // Made here, so that whether a corpus was locked yet makes no difference.
+  // Makes the lock file here, so that folders do not differ by whether the corpus was locked before.
   if (const Result<CorpusLock> lock = CorpusLock::take(folder); !lock) return lock.issue();
   return Corpus(folder);
 }
@@ -84,7 +84,8 @@ Result<std::string> Corpus::place_of(const Bucket& bucket) const {
 
 namespace {
 
-// Being found again is being seen to fail. Only replays count the steady ones of what is flaky.
+// A failure that was found again counts as a failed replay. A flaky bucket stays as it is: only replays count its
+// steady results.
 Bucket found_again(const Bucket& bucket) {
   return bucket.state == BucketState::flaky ? bucket : next_state(bucket, {Shown::fails, ""}, "");
 }
@@ -118,14 +119,14 @@ Result<Corpus::Added> Corpus::add(const Found& found) const {
   Added added{folder, true};
   if (std::error_code ignored; fs::exists(fs::symlink_status(folder + "/bucket.json", ignored))) {
     const Result<Bucket> present = read_own_bucket(folder);
-    if (!present) return present.issue();  // a person has to look: overwriting it would lose its state
+    if (!present) return present.issue();  // overwriting it would lose its state, so a person must decide
     bucket = found_again(*present);
     added.is_new = false;
   }
   std::error_code error;
   const bool was_there = fs::exists(folder, error);
   if (const Result<Done> kept = put_into(folder, found, bucket); !kept) {
-    // A folder without bucket.json is damage to whoever reads: what the disk had no room for is not half there.
+    // A folder without bucket.json would be reported as damage, so a new folder is removed if writing failed.
     if (!was_there) fs::remove_all(folder, error);
     return kept.issue();
   }
@@ -183,8 +184,8 @@ std::vector<Bucket> Corpus::buckets_under_lock(std::vector<Issue>& damaged) cons
   return all;
 }
 
-// A reader waits for writers only where something seems to be damaged: a folder that is being made, a file that is
-// being replaced.
+// Reads without the lock first. Only if something seems damaged, such as a folder that is just being made, it waits for
+// writers and reads again.
 std::vector<Bucket> Corpus::buckets(std::vector<Issue>& damaged) const {
   std::vector<Issue> at_first;
   std::vector<Bucket> all = buckets_under_lock(at_first);

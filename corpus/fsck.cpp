@@ -121,7 +121,7 @@ Result<Done> check_lead(const std::string& path) {
   return Done{};
 }
 
-// Files below runs/ and leads/.
+// Checks files below runs/ and leads/.
 void check_plain(const std::string& folder, Result<Done> (*read)(const std::string&), FaultList& faults) {
   std::vector<std::string> paths;
   std::error_code error;
@@ -131,7 +131,7 @@ void check_plain(const std::string& folder, Result<Done> (*read)(const std::stri
   std::ranges::sort(paths);
   for (const std::string& path : paths) {
     const auto aside = [&] { return faults.move_aside(path); };
-    const bool is_of_run = path.ends_with(".state") || path.ends_with(".lock");  // it goes on, or was stopped
+    const bool is_of_run = path.ends_with(".state") || path.ends_with(".lock");  // its run continues, or was stopped
     if (const Result<Done> inside = check_inside(folder, path); !inside)
       faults.add_unread(path, inside.issue(), aside);
     else if (is_of_run)

@@ -1,6 +1,6 @@
 // Checks the files of a corpus and repairs them. Nothing that a person may need is deleted: it moves to DIR/invalid/,
-// under the same path. Nothing outside of the corpus is read, moved or written: a field that names a file elsewhere
-// is replaced, and a link that leads out is moved as a link.
+// under the same path. Nothing outside of the corpus is read, moved or written: a field that names a file elsewhere is
+// replaced, and a link that leads out is moved as a link.
 #pragma once
 
 #include <string>

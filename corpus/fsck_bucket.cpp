@@ -1,4 +1,4 @@
-// The part of fsck that looks at one bucket's folder.
+// The part of fsck that checks the folder of one bucket.
 #include <algorithm>
 #include <filesystem>
 
@@ -30,7 +30,7 @@ class BucketFolder {
     if (files_of(bucket_).empty())
       return faults_.add(folder_, "missing_case", "holds no case that can be read", aside(folder_));
     replace_missing();
-    // A stand-in of the same spec has the name of what it replaces.
+    // A replacement with the same spec has the same name as the missing file, so copies are checked too.
     if (bucket_ != before || !copies_.empty()) write();
     check_unknown();
     check_name();
@@ -42,7 +42,8 @@ class BucketFolder {
     return [this, path] { return faults_.move_aside(path); };
   }
 
-  // bucket.json, or what the cases say where it cannot be read or names what is no case of this folder.
+  // Reads bucket.json. If it is unreadable, or names files that are no cases of this folder, the bucket is rebuilt from
+  // the cases. Returns false if there is none.
   bool load() {
     const Result<Bucket> stored = read_bucket(folder_);
     if (stored) return bucket_ = *stored, true;
@@ -60,8 +61,7 @@ class BucketFolder {
     return true;
   }
 
-  // The names that are of their form, and everything that people and replays said. What was rebuilt stands for the
-  // rest.
+  // Keeps valid names, and all fields that people and replays set. The rebuilt bucket replaces the rest.
   void keep_what_is_known(Bucket known) {
     for (const Role& role : kRoles)
       if ((known.*role.file).empty()) known.*role.file = bucket_.*role.file;
@@ -122,7 +122,7 @@ class BucketFolder {
 
   void rename_case(const std::string& full, const std::string& name, std::string& file) {
     faults_.add(full, "wrong_name", "its spec belongs to the name " + name, [&]() -> Result<std::string> {
-      // A copy first: bucket.json still names the old one.
+      // Copies first, because bucket.json still has the old name.
       if (const Result<Done> copied = copy(fs::path(full).filename().string(), name); !copied) return copied.issue();
       renamed_.push_back(full);
       return "renamed to " + name;
@@ -131,7 +131,7 @@ class BucketFolder {
     file = name;
   }
 
-  // A bucket shows its min and worst to people: another case stands in, unshrunk if need be.
+  // People read the min and worst case of a bucket. If one is missing, another case replaces it, even an unshrunk one.
   void replace_missing() {
     const std::string stand_in = files_of(bucket_).front();
     for (const Role& role : {kRoles[0], kRoles[1]}) {
@@ -181,8 +181,8 @@ class BucketFolder {
   std::string folder_;
   FaultList& faults_;
   Bucket bucket_;
-  std::vector<std::string> listed_;                          // cases that have their fault already
-  std::vector<std::string> renamed_;                         // old names, gone once bucket.json is written
+  std::vector<std::string> listed_;                          // cases whose fault is already listed
+  std::vector<std::string> renamed_;                         // old names, removed once bucket.json is written
   std::vector<std::pair<std::string, std::string>> copies_;  // from, to
 };
 

@@ -47,7 +47,7 @@ std::int64_t groups_with(const Family& family, const GroupCounts& seen) {
   return at == seen.of_family.end() ? 0 : at->second;
 }
 
-// The terms of the binomial sum follow from each other.
+// Each term of the binomial sum follows from the one before.
 double chance_of_as_many(std::int64_t now, std::int64_t before, double share) {
   double term = chance_of_exactly(now, before, share), sum = term;
   for (; before > 0 && term > 0.0; --before) {

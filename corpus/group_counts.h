@@ -20,7 +20,7 @@ struct GroupCounts {
   bool operator==(const GroupCounts&) const = default;
 };
 
-// Adds up runs, except those with these names.
+// Adds up the groups of runs, except the runs with these names.
 GroupCounts group_counts_of(std::span<const RunRecord> runs, const std::set<std::string>& except = {});
 void add(const GroupCounts& more, GroupCounts& sum);
 

@@ -20,7 +20,7 @@ Case parsed_case(const std::string& text) {
   return std::move(read).value();
 }
 
-// The failure that shows now travels as a case; if none does, there is a hash alone.
+// A failure that shows now is sent as a case. Otherwise only the hash of the motion is sent.
 std::string print_replay(const Case& stored, const Replay& shown) {
   Json out = {{"verdict", static_cast<int>(shown.verdict)},
               {"first_difference", shown.first_difference},
@@ -51,7 +51,7 @@ WorkerPool::Work work_of(RunCase replay) {
   };
 }
 
-// An ending takes a process of its own up to its limit, before the worker runs the case itself.
+// Cases that ended their process first run alone, up to their own time limit; the worker waits that much longer.
 double patience_for(const Case& stored, const WorkerLimits& limits) {
   if (!is_abnormal_exit(stored.expect)) return 1.0;
   return 1.0 + isolation_of(stored.expect, isolation_of(limits)).seconds / limits.seconds;

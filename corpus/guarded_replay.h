@@ -16,7 +16,7 @@ class GuardedReplay {
  public:
   GuardedReplay(RunCase replay, const WorkerLimits& limits);
 
-  // Replays a case. If it ends the worker, the verdict is `different`, and `now` says how it ended.
+  // Replays a case. If the case ends the worker, the verdict is `different`, and `now` describes the ending.
   Replay operator()(const Case& stored);
 
  private:

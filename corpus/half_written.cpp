@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Files whose names begin so, in a folder and those below it.
+// Removes files whose names begin like this, in a folder and all folders below it.
 void drop_below(const std::string& folder, const std::string& begin) {
   std::error_code ignored;
   std::vector<fs::path> left;

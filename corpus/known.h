@@ -1,6 +1,6 @@
-// Tells whether a request is known to go wrong, before anything is played. docs/reference/conditions.md says how rules
-// are learned and what their names mean. This header needs only the standard library, allocates nothing, and is copied
-// whole into the header that `contort explain --header` writes for games.
+// Finds out whether a request is known to go wrong, before anything is played. docs/reference/conditions.md describes
+// how rules are learned and what their names mean. This header needs only the standard library, allocates nothing, and
+// is copied whole into the header that `contort explain --header` writes for games.
 #pragma once
 
 #include <cstdint>

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The files that a lead has beside its original. The minimal case is written last: where it is, all are.
+// The files of a lead besides its original. The minimal case is written last: if it exists, all files do.
 struct Beside {
   std::string_view ending;
   std::optional<Case> Lead::*stored;
@@ -27,7 +27,7 @@ bool is_beside(const std::string& path) {
 
 std::string folder_of(const Corpus& corpus, const std::string& run) { return corpus.folder() + "/leads/" + run; }
 
-// RUN/FILE, of leads/ and not of the run's own folder, which may be a link to elsewhere.
+// Reads RUN/FILE below leads/, not below the run's own folder, which may be a link that leads elsewhere.
 Result<Case> read_case_of_lead(const std::string& path) {
   const fs::path file(path), folder = file.parent_path();
   return read_case_of(folder.parent_path().string(), (folder.filename() / file.filename()).string());
@@ -38,7 +38,7 @@ Result<Done> write_case_of_lead(const Corpus& corpus, const std::string& path, c
   return write_inside(folder, path.substr(folder.size() + 1), print_case(stored));
 }
 
-// Without ".json". Indices in file names have equal length, so that names sort as indices do.
+// The path without ".json". Indices in file names have equal length, so that names sort like indices.
 std::string stem_of(const Corpus& corpus, const Lead& lead) {
   const Provenance& from = lead.original.provenance;
   std::string digits = std::to_string(from.index);
@@ -130,7 +130,7 @@ void drop_lead(const Corpus& corpus, const Lead& lead) {
 
 void tidy_leads(const Corpus& corpus, const std::string& run) {
   std::error_code ignored;
-  fs::remove(folder_of(corpus, run), ignored);  // only an empty folder goes
+  fs::remove(folder_of(corpus, run), ignored);  // removes only an empty folder
 }
 
 }  // namespace contort

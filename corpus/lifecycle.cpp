@@ -36,7 +36,7 @@ void pass(Bucket& bucket, const std::string& build) {
   if (bucket.passed_in.size() >= kBuildsToFix) bucket.state = BucketState::fixed;
 }
 
-// A replay that ran and was steady.
+// Records a replay that ran and was steady.
 void judge(Bucket& bucket, const Observation& seen) {
   if (bucket.state == BucketState::invalid) take_back(bucket);
   if (bucket.state == BucketState::flaky && ++bucket.streak < kSteadyReplays) return;
@@ -47,14 +47,14 @@ void judge(Bucket& bucket, const Observation& seen) {
     pass(bucket, seen.build);
 }
 
-// Everything that a person or a replay may change, in the order in which copies are compared.
+// All fields that a person or a replay may change, in the order in which copies are compared.
 auto state_of(const Bucket& b) {
   return std::tie(b.changes, b.state, b.was, b.streak, b.passed_in, b.owner, b.ticket, b.reason, b.expires,
                   b.note);
 }
 
-// Days since some day, of "2027-03-01". Years begin in March, so that a leap day is the last of its year and months have
-// 31, 30, 31, 30, 31 days again and again (as in Fliegel and van Flandern, CACM 1968).
+// The number of days from a fixed day to "2027-03-01". Years begin in March, so that a leap day is the last of its year
+// and the lengths of months repeat: 31, 30, 31, 30, 31 days (as in Fliegel and van Flandern, CACM 1968).
 int day_number(const std::string& text) {
   const auto number = [&](std::size_t at, std::size_t length) { return std::atoi(text.substr(at, length).c_str()); };
   const int month = (number(5, 2) + 9) % 12;  // March is 0
@@ -79,7 +79,7 @@ Result<Done> check_day(const Bucket& bucket, const std::string& expires, const s
 }  // namespace
 
 bool is_expired(const Bucket& bucket, const std::string& today) {
-  return bucket.state == BucketState::quarantined && bucket.expires < today;  // days as text are in order
+  return bucket.state == BucketState::quarantined && bucket.expires < today;  // dates compare like texts
 }
 
 bool is_gating(const Bucket& bucket, const std::string& today) {

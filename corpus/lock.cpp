@@ -22,14 +22,14 @@ Result<CorpusLock> CorpusLock::wait_for(int file, int how, const std::string& pa
 
 Result<CorpusLock> CorpusLock::take(const std::string& folder) {
   const std::string path = folder + "/.lock";
-  // For writing, although nothing is written: on NFS a lock needs it.
+  // Opens for writing, although nothing is written, because locks on NFS need it.
   return wait_for(::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666), LOCK_EX, path,
                   "file.unwritable");
 }
 
 Result<CorpusLock> CorpusLock::share(const std::string& folder) {
   const std::string path = folder + "/.lock";
-  // Without blocking: to open a pipe that somebody has put in its place would wait for ever.
+  // Opens without blocking: a pipe in place of the file would block for ever.
   return wait_for(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC), LOCK_SH, path,
                   "file.unreadable");
 }

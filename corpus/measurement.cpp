@@ -27,7 +27,7 @@ void keep_deepest(const Finding& finding, bool waived, MarginsByName& deepest) {
   if (std::isnan(found.margin) || found.margin < known->second.margin) known->second = found;
 }
 
-// Failures that nobody waived come first, as these are what a run reports.
+// Failures that are not waived come first, because a run reports these.
 MarginsByName deepest_findings(const Evaluation& evaluation) {
   MarginsByName deepest;
   for (const Finding& finding : evaluation.findings) keep_deepest(finding, false, deepest);
@@ -35,7 +35,8 @@ MarginsByName deepest_findings(const Evaluation& evaluation) {
   return deepest;
 }
 
-// A margin of a subject that passes may be below 0 by rounding, or from after the loss of balance: then it counts as 0.
+// The margin of a subject that passes may be below 0 by rounding, or because frames after a loss of balance are not
+// judged. Then it counts as 0.
 MarginsByName margins_without(const MarginsByName& findings, const Evaluator& evaluator) {
   MarginsByName passing;
   for (const SmallestMargins& row : evaluator.smallest_margins())
@@ -146,7 +147,7 @@ Issue bad_request(const std::string& name, const std::string& expected) {
   return {"measure.bad_request", "/" + name, "expected " + expected};
 }
 
-// The fields of a request besides its spec.
+// Reads the fields of a request other than its spec.
 Result<Done> read_options(const Json& line, MeasureRequest& request) {
   for (const auto& [name, value] : line.items()) {
     if (name == "id" && value.is_number_integer())

@@ -14,7 +14,7 @@ namespace {
 
 using RunsByName = std::map<std::string, std::vector<RunRecord>>;
 
-// A bucket with its state and cases, from one corpus to another.
+// Copies a bucket with its state and cases from one corpus to another.
 Result<Done> take_bucket(const Corpus& from, const Bucket& bucket, const Corpus& into, Merged& merged) {
   const Result<Done> taken = into.take(from, bucket);
   if (!taken && taken.issue().code == "file.unwritable") return taken;
@@ -22,7 +22,7 @@ Result<Done> take_bucket(const Corpus& from, const Bucket& bucket, const Corpus&
   return Done{};
 }
 
-// If both have a lead, the one that was shrunk stays.
+// If both corpora have a lead, the shrunk one stays.
 Result<Done> take_leads(const Corpus& from, const Corpus& into, Merged& merged) {
   for (const Lead& lead : leads_of(from, merged.damaged)) {
     const Result<Lead> present = read_lead(lead_path(into, lead));
@@ -55,8 +55,8 @@ std::string sentence_of(const std::vector<RunRecord>& shards, const std::vector<
   return text + " of " + std::to_string(shards.front().shards) + " are missing";
 }
 
-// One run would have taken others of its family, which came before it. What was met while another failure was shrunk
-// would not have been met without that one.
+// True for leads that an unsharded run would not have shrunk, because earlier ones of the family filled its quota.
+// Failures that were found while another one was shrunk belong to the family of that one.
 bool came_too_late(const RunRecord& run, const Lead& lead) {
   const Family& shrunk = lead.original.provenance.met_shrinking;
   const auto family = run.families.find(shrunk.empty() ? family_of(lead.original) : shrunk);
@@ -65,8 +65,9 @@ bool came_too_late(const RunRecord& run, const Lead& lead) {
   return std::ssize(first) >= run.shrinks_per_family && lead.original.provenance.index > first.back();
 }
 
-// Knows the failures that one run would not have shrunk: those that the minimal spec of an earlier one of the same case
-// shows or is named by, and those met while that was shrunk. In the order of cases, and of the failures of each.
+// Leads that an unsharded run would not have shrunk: their family is shown by the minimal spec of an earlier failure of
+// the same case, or is that spec's own. Leads that were found while such a failure was shrunk are skipped too. Expects
+// leads in the order of cases, and of the failures of each case.
 class ToldAlready {
  public:
   bool operator()(const Lead& lead) {
@@ -80,7 +81,7 @@ class ToldAlready {
 
  private:
   std::int64_t index_ = -1;
-  std::set<Family> shown_, told_;  // of this case
+  std::set<Family> shown_, told_;  // families of the present case
 };
 
 std::vector<Lead> shrunk_leads_of(const Corpus& corpus, const RunRecord& run, Merged& merged) {
@@ -93,9 +94,9 @@ std::vector<Lead> shrunk_leads_of(const Corpus& corpus, const RunRecord& run, Me
   return leads;
 }
 
-// The first cases of each family by index, as one run would have taken them. Which these are is on record: of a shard
-// that is merged again on its own, the first leads need not be the first of the run. All that is superfluous goes
-// before anything is filed, so that a kill in between changes nothing.
+// Files the first leads of each family by index, as one run would have. The record has these indices, because the first
+// leads of a shard that is merged again alone need not be the first of the run. Superfluous leads are removed before
+// any is filed, so that a kill in between changes nothing.
 Result<Done> file_leads(const Corpus& corpus, const RunRecord& run, Merged& merged) {
   std::vector<Lead> to_file, superfluous;
   ToldAlready told_already;
@@ -111,7 +112,7 @@ Result<Done> file_leads(const Corpus& corpus, const RunRecord& run, Merged& merg
   return Done{};
 }
 
-// Shards of different splits of one run cannot be added up; those of the finest split are looked at.
+// Counts of different splits of one run cannot be added up. Only the shards of the finest split are used.
 std::vector<RunRecord> of_one_split(std::vector<RunRecord> shards) {
   int most = 0;
   for (const RunRecord& shard : shards) most = std::max(most, shard.shards);
@@ -132,12 +133,12 @@ Result<Done> complete_run(const Corpus& corpus, const std::vector<RunRecord>& re
     if (const Result<Done> kept = keep_run(corpus, run); !kept) return kept;
   }
   if (const Result<Done> filed = file_leads(corpus, run, merged); !filed) return filed;
-  for (const RunRecord& record : records)  // last, so that a kill before leaves what it takes to do it again
+  for (const RunRecord& record : records)  // dropped last, so that after a kill the next merge can start again
     if (!is_whole(record)) drop_run(corpus, record);
   return Done{};
 }
 
-// Rules are all taken along: one that was learned from another minimal case is learned anew when it is asked for.
+// Takes all rules. A rule that was learned from another minimal case is learned again when it is needed.
 Result<Done> merge_conditions(const std::vector<Corpus>& sources, const Corpus& into, Merged& merged) {
   std::vector<Condition> more;
   for (const Corpus& corpus : sources)

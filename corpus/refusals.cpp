@@ -15,8 +15,8 @@ constexpr std::size_t kMostReasons = 100;
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_of_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-// "the angle -57.25 is too large" and "the angle 3e-05 is too large" become "the angle # is too large". A digit within
-// a word, as in "arm2", is a part of a name.
+// "the angle -57.25 is too large" and "the angle 3e-05 is too large" become "the angle # is too large". A digit inside
+// a word, as in "arm2", belongs to the name.
 std::string without_numbers(const std::string& text) {
   std::string out;
   for (std::size_t i = 0; i < text.size();) {

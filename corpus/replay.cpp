@@ -19,7 +19,8 @@ std::string_view verdict_name(Verdict verdict) {
 
 namespace {
 
-// Four digits a frame; the running hash differs from the first frame on that differs.
+// The first frame in which two traces differ. A trace has four digits per frame of a running hash, which stays
+// different after the first difference.
 int first_traced_difference(const std::string& stored, const std::string& now) {
   if (stored.empty() || stored == now) return -1;
   const auto [at, other] = std::mismatch(

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMostRequests = 256;
 constexpr std::string_view kSeconds = ".seconds";
 
-// One use of an action, and when it plays.
+// One use of an action, with the time when it plays.
 struct Played {
   const ActionUse* use = nullptr;
   double start_s = 0.0;  // from the start of the queue, or of its interrupt
@@ -55,7 +55,7 @@ std::vector<Played> played_in(const Spec& spec) {
   return all;
 }
 
-// The distance of a point from the upper joint of a limb at rest, as a share of the length of the stretched limb.
+// The distance of a point from the upper joint of a limb at rest, as a fraction of the length of the stretched limb.
 double share_of_reach(const Character& character, const ReachChain& limb, const Vec3& point_m) {
   std::vector<Rigid> world(character.joints().size());
   forward_kinematics(character, character.rest_root(), character.rest_coords(), world);
@@ -167,7 +167,7 @@ void add_gap(const std::vector<const Played*>& chosen, Writer& out) {
 
 using Combination = std::vector<const Played*>;
 
-// Every choice of one use for each name.
+// All combinations of one use for each name.
 std::vector<Combination> combinations_of(const std::vector<Played>& all, const std::vector<std::string>& names) {
   std::vector<Combination> chosen = {{}};
   for (const std::string& name : names) {

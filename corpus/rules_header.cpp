@@ -9,7 +9,7 @@ namespace contort {
 
 namespace {
 
-// A C++ string literal. What could end it or begin an escape or a trigraph is written in octal.
+// A C++ string literal. Characters that could end it, or begin an escape or a trigraph, are written in octal.
 std::string literal(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -45,7 +45,7 @@ std::string comparison_line(const known::Term& comparison) {
          number(comparison.limit) + ", " + literal(comparison.word) + "},\n";
 }
 
-// An array of constants; no line at all where it would be empty, which C++ does not have.
+// An array of constants; no line if it is empty, because C++ has no empty arrays.
 std::string array(const std::string& type, const std::string& name, const std::string& lines) {
   return lines.empty() ? "" : "inline constexpr " + type + " " + name + "[] = {\n" + lines + "};\n";
 }

@@ -8,7 +8,7 @@
 
 namespace contort {
 
-// The text of the header; `from` says in its first comment which corpus it comes from.
+// The text of the header. Its first comment names the corpus, `from`.
 std::string rules_header(const std::vector<Condition>& conditions, const std::string& from);
 
 }  // namespace contort

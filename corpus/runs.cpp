@@ -35,7 +35,7 @@ void add_families(const RunRecord& shard, RunRecord& sum) {
   }
 }
 
-// Whether `index` comes before the first one so far.
+// Returns true if `index` comes before the first one so far.
 bool comes_first(std::int64_t index, std::int64_t first) { return index >= 0 && (first < 0 || index < first); }
 
 void add_comparison(const AgainstCounts& shard, AgainstCounts& sum) {

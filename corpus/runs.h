@@ -42,7 +42,7 @@ struct AgainstCounts {
   std::int64_t broke = 0;    // at least one family fails here and passes in the base
   std::int64_t worse = 0;    // at least one family fails in both, and much deeper here
   std::int64_t mended = 0;   // at least one family fails in the base and passes here
-  std::int64_t refused = 0;  // the base refused the spec, or crashed, hung or used too much memory
+  std::int64_t refused = 0;  // the base refused the spec, crashed, hung or used too much memory
   std::int64_t first_moved = -1;    // index of the first case that moved; -1 if no case did
   int first_moved_frame = -1;       // the first frame in which its motions differ
   std::int64_t first_refused = -1;  // index of the first refused case; -1 if none was refused

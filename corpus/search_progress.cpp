@@ -10,11 +10,11 @@ namespace contort {
 
 namespace {
 
-// The shards of one run, in whatever order they come.
+// The shards of one run, in any order.
 struct Shards {
   std::vector<RunRecord> records;
 
-  // After how many of the run's cases one of them ran. Where shards are missing the indices have gaps.
+  // The estimated number of the run's cases that ran up to this one. If shards are missing, the indices have gaps.
   std::int64_t place_of(std::int64_t index, const RunRecord& sum) const {
     const auto present = static_cast<double>(records.size()) / records.front().shards;
     return std::clamp<std::int64_t>(static_cast<std::int64_t>(static_cast<double>(index) * present) + 1, 1,
@@ -35,7 +35,7 @@ std::vector<Shards> by_run(std::span<const RunRecord> runs) {
 
 struct Sightings {
   std::int64_t cases = 0;
-  std::int64_t first = 0;  // of all cases
+  std::int64_t first = 0;  // number of all cases up to the first sighting
   std::string first_arm;
   std::pair<std::string, std::int64_t> first_case;  // run and index
 };

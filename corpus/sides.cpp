@@ -12,7 +12,7 @@ constexpr std::string_view kLeft = "left", kRight = "right", kAnd = " ~ ";
 
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 
-// Whether the word stands at this place by itself: "bright" has no side.
+// Returns true if the word stands at this place by itself: "bright" has no side.
 bool has_word_at(std::string_view text, std::size_t at, std::string_view word) {
   if (!text.substr(at).starts_with(word)) return false;
   const std::size_t end = at + word.size();

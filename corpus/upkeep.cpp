@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Does something to each bucket while nobody else writes. A bucket that cannot be read ends it before anything is
-// changed; one whose names lead elsewhere is no bucket of this corpus, and the others have nothing to do with it.
+// Calls `each` for every bucket, with the lock held. Stops before any change if a bucket is unreadable. Buckets whose
+// names or links lead elsewhere are skipped.
 template <class Each>
 Result<Changes> each_bucket(const Corpus& corpus, const Each& each) {
   const Result<CorpusLock> lock = CorpusLock::take(corpus.folder());
@@ -65,7 +65,7 @@ Result<Done> prune_one(const Corpus& corpus, const Bucket& bucket, Changes& chan
   pruned.orig.clear();
   if (const Result<Done> written = write_bucket(corpus.folder_of(bucket), pruned); !written) return written;
   changes.push_back(folder_name(bucket) + "/" + bucket.orig + " dropped");
-  std::error_code ignored;  // what stays is found by fsck
+  std::error_code ignored;  // fsck finds files that stay
   fs::remove(*original, ignored);
   return Done{};
 }

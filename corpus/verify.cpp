@@ -11,7 +11,7 @@ namespace contort {
 
 namespace {
 
-// Margins are not looked at: NaN is not equal to itself, and they follow from the motion.
+// Compares no margins: they follow from the motion, and NaN is not equal to itself.
 bool equal(const Replay& a, const Replay& b) {
   const auto shown = [](const Replay& r) {
     return std::tie(r.verdict, r.now.motion_hash, r.now.check, r.now.subject, r.now.first_frame, r.now.worst_frame,
@@ -22,7 +22,7 @@ bool equal(const Replay& a, const Replay& b) {
 
 bool fails(const Replay& replay) { return replay.verdict == Verdict::same || replay.verdict == Verdict::same_family; }
 
-// Adds the case; whether all of its runs were equal.
+// Adds the case. Returns true if all of its runs were equal.
 bool replay_case(const Bucket& bucket, const Corpus::Stored& of_bucket, const RunCase& run,
                  std::vector<CaseReplay>& out) {
   CaseReplay one{of_bucket.path, {}, {}};
@@ -46,7 +46,7 @@ Shown shown_by(const std::vector<CaseReplay>& cases) {
   return std::ranges::any_of(cases, refused) ? Shown::refused : Shown::gone;
 }
 
-// While some still fail: how those do. Else whether one at least fails in another way.
+// The verdict of the cases that still fail. If none does, it is `different` if a case fails in another way.
 Verdict verdict_of(const std::vector<CaseReplay>& cases, Shown shown) {
   if (shown == Shown::refused || cases.empty()) return Verdict::refused;
   Verdict verdict = shown == Shown::fails ? Verdict::same : Verdict::passes;

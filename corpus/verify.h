@@ -1,4 +1,4 @@
-// Replays the stored cases of a bucket and tells whether they still fail. `contort replay CORPUS` does this bucket by
+// Replays the stored cases of a bucket to find out whether they still fail. `contort replay CORPUS` does this bucket by
 // bucket.
 #pragma once
 

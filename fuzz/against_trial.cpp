@@ -23,7 +23,7 @@ Measurement AgainstTrial::ask(const Spec& spec, const std::string& check) const 
   });
 }
 
-// The base runs only what fails in this build.
+// The base runs only specs that fail in this build.
 TrialResult AgainstTrial::run(const Spec& spec, int most_frames) {
   TrialResult shown = inner_.run(spec, most_frames);
   if (!shown.fails) return shown;

@@ -14,7 +14,7 @@ MeasureRequest request_for(const Spec& spec) {
   return request;
 }
 
-// The margin of one family, below 0 where it fails; 0 where it was not judged.
+// The margin of one family, below 0 if it fails; 0 if it was not judged.
 double margin_in(const Measurement& measured, const Expectation& family) {
   for (const auto* list : {&measured.findings, &measured.margins})
     for (const SubjectMargin& one : *list)
@@ -22,7 +22,7 @@ double margin_in(const Measurement& measured, const Expectation& family) {
   return 0.0;
 }
 
-// Whether this build shows the failure again, bit for bit.
+// Returns true if this build shows the failure again, equal in every bit.
 bool is_repeated(const Case& found, Evaluator& evaluator) {
   const Result<Evaluation> again = evaluator.run(found.spec, found.expect.check);
   if (!again || deepest(again->findings, found.expect.check, found.expect.subject) == nullptr) return false;
@@ -31,7 +31,7 @@ bool is_repeated(const Case& found, Evaluator& evaluator) {
 
 }  // namespace
 
-// Copies of a worker's tools are made before it starts, so the base is started by the process that uses it.
+// Starts the base on first use, because a worker's tools are copied into its process before it runs.
 BaseBuild& AgainstWork::base() {
   if (base_ == nullptr) base_ = config_.start();
   return *base_;

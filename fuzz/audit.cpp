@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::uint64_t kAuditStream = 0x6175646974ULL;
 constexpr int kShortestFrames = 20, kLongestFrames = 90;
-constexpr int kHoldFrames = 30;  // for the figure to come to rest
+constexpr int kHoldFrames = 30;  // the figure comes to rest in these frames
 
 bool holds(const std::vector<std::string>& names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
@@ -37,8 +37,8 @@ bool wanted(const std::vector<std::string>& names, const std::string& name) {
 // A character with at most one change: another part in a slot, or an object at a socket.
 struct Variant {
   CharacterChoice choice;
-  std::string slot;    // of the other part; "" for the character as it is by default
-  std::string object;  // that it carries
+  std::string slot;    // slot of the other part; "" for the default character
+  std::string object;  // the object that the character carries
 };
 
 void add_parts(const CharacterDesc& desc, std::vector<Variant>& out) {
@@ -76,7 +76,7 @@ bool is_point(const ParamDef& def) {
   return def.type == ParamType::object_point || def.type == ParamType::own_point;
 }
 
-// The points for which a variant has a row of its own: those of its object, and by default those that parts have.
+// The points for which a variant has a row of its own: points of its object or, without an object, points of the parts.
 std::vector<std::string> points_of(const OfferedAction& action, const Character& character, const Variant& variant) {
   const auto def = std::ranges::find_if(action.params, is_point);
   std::vector<std::string> points;
@@ -100,12 +100,12 @@ void add_rows(const AuditOptions& options, const Variant& variant, const Charact
   }
 }
 
-// The character of a row, and the action with the part that does it.
+// The character of a row, the action, and the part that performs it.
 struct Offered {
   Character character;
   OfferedAction action;
   int part = 0;
-  bool touches = false;  // what stands beside the part
+  bool touches = false;  // the part touches objects beside it
   double rate_hz = 60.0;
 };
 
@@ -127,17 +127,17 @@ ObstacleDesc wall_beside(const Character& character, const Part& part, Dice& dic
 }
 
 struct Outcome {
-  std::vector<std::string> checks;  // that found something
-  std::vector<std::string> reasons;  // of unmet requests
+  std::vector<std::string> checks;  // checks that found something
+  std::vector<std::string> reasons;  // reasons of unmet requests
   double depth = 0.0;
   bool still = false;
   std::string ending{};                  // a sentence, if the program under test ended
-  std::optional<std::string> refusal{};  // its reason, if it refused
+  std::optional<std::string> refusal{};  // the program's reason, if it refused the request
 };
 
 constexpr std::size_t kMostPrintedOfRow = 200;
 
-// A program that ended in a motion has the finding that a run would store.
+// A program that ended in a motion gives the same finding as in a run.
 Outcome outcome_of(const Spec& spec, const ProgramEnded& ended) {
   const Expectation shown = ending_case(spec, ended.ending()).expect;
   return {{shown.check}, {}, shown.depth, false, describe(ended.ending(), kMostPrintedOfRow), {}};
@@ -153,7 +153,7 @@ bool is_still(const Motion& motion) {
   return true;
 }
 
-// The figure rests in the last frames. A finding that lasts until then is one of the pose itself.
+// Returns true for a finding about the pose itself: one that lasts until the last frame, in which the figure rests.
 bool is_static(const Finding& finding, const Motion& motion) {
   const bool of_poses =
       finding.check == "joint_range" || finding.check == "self_collision" || finding.check == "ground_penetration";
@@ -246,7 +246,7 @@ Result<Outcome> played(const Spec& spec, Layer layer, Evaluator& evaluator) {
 
 bool is_timeout(const Result<Outcome>& outcome) { return outcome && holds(outcome->checks, "timeout"); }
 
-// The row ends with the same draw whatever the number of threads: a draw before it that no thread made is made now.
+// The row ends with the same draw for any number of threads: draws before it that no thread made are made now.
 Result<Done> audit_row(const AuditOptions& options, const Offered& on, Evaluators& evaluators, AuditRow& row) {
   std::vector<std::optional<Result<Outcome>>> outcomes(at(options.draws));
   std::atomic<int> timeouts{0};

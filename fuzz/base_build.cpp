@@ -6,7 +6,7 @@ namespace contort {
 
 namespace {
 
-constexpr double kGreetingSeconds = 30.0;  // a machine under load starts programs slowly
+constexpr double kGreetingSeconds = 30.0;  // enough for a machine under load, which starts programs slowly
 
 Measurement refusal_of(std::int64_t id, Issue issue) {
   Measurement refused;
@@ -26,7 +26,7 @@ Issue issue_of_ending(const Ending& ending) {
 
 void BaseProgram::start(const std::function<void()>& on_wait) {
   program_ = std::make_unique<LineProgram>(command_, limits_, Messages::dropped);
-  (void)program_->read_line(on_wait, kGreetingSeconds);  // the hello, which the run has judged before
+  (void)program_->read_line(on_wait, kGreetingSeconds);  // the hello, which the run has checked before
 }
 
 void BaseProgram::ask(const MeasureRequest& request) {
@@ -37,7 +37,7 @@ void BaseProgram::ask(const MeasureRequest& request) {
   if (is_asked_) program_->send_line(line_);
 }
 
-// A program that ended is forgotten, so that the next request begins with a new one.
+// A program that ended is dropped, so that the next request starts a new one.
 Ending BaseProgram::try_once(const std::function<void()>& on_wait) {
   if (program_ == nullptr) start(on_wait);
   if (!is_asked_) program_->send_line(line_);
@@ -53,7 +53,7 @@ Measurement BaseProgram::answer(const std::function<void()>& on_wait) {
   if (ending.kind != Ending::Kind::finished) return refusal_of(id_, issue_of_ending(ending));
   Result<Measurement> measured = parse_measurement(ending.result);
   if (measured && measured->id == id_) return std::move(measured).value();
-  program_.reset();  // nobody knows which request its next line would answer
+  program_.reset();  // its next line could answer any request
   return refusal_of(id_, measured ? Issue{"base.bad_answer", "/id", "found the answer to another request"}
                                   : Issue{"base.bad_answer", measured.issue().pointer, measured.issue().text});
 }

@@ -18,13 +18,14 @@ namespace contort {
 
 namespace {
 
-constexpr double kWithinReach = 20.0;  // of a limit, in the check's scale: 2 rad, 40 cm
+// Smallest distance to a limit that is no near miss, in the check's scale: 2 rad, 40 cm.
+constexpr double kWithinReach = 20.0;
 
 Family target_of(const CheckDef& check, const Character& character, std::size_t subject) {
   return {std::string(check.name), character.name(), check.subject(character, static_cast<int>(subject)).name};
 }
 
-// The earliest first, as what comes later may only follow from it; of those that begin together the deepest.
+// The earliest family comes first, because later ones may only follow from it; of equally early ones the deepest.
 std::vector<Family> families_of(const std::string& character, std::vector<Finding> findings) {
   std::ranges::stable_sort(findings, [](const Finding& l, const Finding& r) {
     return std::pair(l.first_frame, -l.depth) < std::pair(r.first_frame, -r.depth);
@@ -107,7 +108,7 @@ EvaluateReport CaseWork::report_of(const EvaluateTask& task, const Spec& spec, c
   return report;
 }
 
-// Lists the subjects of `group` that came within reach of their limit and did not break it.
+// Lists the subjects of `group` that came near their limit (kWithinReach) without breaking it.
 std::vector<NearMiss> CaseWork::near_misses(const Character& character, int group) {
   std::vector<NearMiss> near;
   for (const SmallestMargins& margins : evaluator_.smallest_margins()) {
@@ -123,7 +124,7 @@ std::vector<NearMiss> CaseWork::near_misses(const Character& character, int grou
 
 namespace {
 
-// The ending of the process that this family stands for; nothing for a family of a check.
+// The ending of a process that this family describes; empty for a family of a check.
 std::optional<Ending> ending_of(const Family& family) {
   if (family.check == "crash") return Ending{Ending::Kind::crash, family.subject, {}};
   if (family.check == "timeout") return Ending{Ending::Kind::timeout, {}, {}};
@@ -145,7 +146,7 @@ Case seen_once(const SettleTask& task, const Spec& spec, Generator& generator, c
   return seen;
 }
 
-// The failure as the second time shows it, or nothing.
+// The failure as the second run shows it; empty if it does not show it.
 std::optional<Case> CaseWork::shown_again(const SettleTask& task, const Spec& spec) {
   if (const std::optional<Ending> ending = ending_of(task.family)) {
     const Case ended = ending_case(spec, *ending, isolation_of(config_.limits));
@@ -159,7 +160,7 @@ std::optional<Case> CaseWork::shown_again(const SettleTask& task, const Spec& sp
   return Case{spec, expectation_of(evaluator_.execution(), *evaluation, *finding), {}};
 }
 
-// Kept first, then shrunk, so that a kill at any point loses nothing.
+// Stores the failure before shrinking it, so that a kill at any point loses nothing.
 SettleReport CaseWork::settle(const SettleTask& task, WorkerSlot& slot) {
   SettleReport report;
   const Spec spec = spec_of(config_, generator_, task.lineage);
@@ -179,13 +180,13 @@ SettleReport CaseWork::settle(const SettleTask& task, WorkerSlot& slot) {
   return report;
 }
 
-// Against a base a failure must count the second time, too; without one it always does.
+// Returns true if the failure counts in a second run against the base, or if there is no base.
 bool CaseWork::counts_again(Case& found, const std::string& base_hash, WorkerSlot& slot) {
   return !against_ || against_->confirm(found, evaluator_, base_hash, slot);
 }
 
-// The lead is of an earlier run, or of this one before. Another process may have taken it meanwhile; then there is
-// nothing to do.
+// Shrinks a lead of an earlier run, or of this run before it was stopped. If another process has taken the lead
+// meanwhile, there is nothing to do.
 ShrinkReport CaseWork::shrink_waiting(const ShrinkTask& task, WorkerSlot& slot) {
   ShrinkReport report;
   Result<Lead> read = read_lead(task.lead);
@@ -203,8 +204,8 @@ bool shows_again(const Shrunk& shrunk) { return shrunk.stopped != "flaky" && shr
 
 }  // namespace
 
-// If there is a base, the smallest and the deepest case are run once more in both builds. False if the smallest does
-// not count there; a deepest case that does not is left out.
+// Sets the shrunk cases of a lead. If there is a base, the smallest and the deepest case are run again in both builds.
+// Returns false if the smallest does not count there. If the deepest does not count, the smallest replaces it.
 bool CaseWork::take_shrunk(Shrunk& shrunk, Lead& lead, bool guarded, WorkerSlot& slot) {
   Case minimal = shrunk.minimal, worst = shrunk.worst;
   if (!counts_again(minimal, "", slot)) return false;
@@ -217,11 +218,11 @@ bool CaseWork::take_shrunk(Shrunk& shrunk, Lead& lead, bool guarded, WorkerSlot&
   lead.worst = counts_again(worst, "", slot) ? worst : minimal;
   if (family_of(minimal) == family_of(lead.original)) return true;
   lead.shrunk_from = shrunk.original;
-  (void)counts_again(*lead.shrunk_from, "", slot);  // for its provenance
+  (void)counts_again(*lead.shrunk_from, "", slot);  // sets its provenance
   return true;
 }
 
-// A lead is shrunk in this process at first, and with a guard once a candidate has ended that.
+// A lead is shrunk in this process first; with a guard after a candidate has ended that process.
 Result<Done> CaseWork::shrink_lead(SettledLead& settled, bool guarded, WorkerSlot& slot) {
   Lead& lead = settled.lead;
   Shrunk shrunk = shrink_to_precursor(lead.original, [&](const Case& original, const PrimarySearch& search) {
@@ -235,8 +236,8 @@ Result<Done> CaseWork::shrink_lead(SettledLead& settled, bool guarded, WorkerSlo
   return kept;
 }
 
-// A spec that ends its process is a failure of its own, whatever was being shrunk. What is met while this one is shrunk
-// is not followed any further.
+// A spec that ends its process is a failure of its own, and is stored and shrunk. Failures that are found during that
+// shrinking are ignored.
 Result<Done> CaseWork::keep_incidental(const Case& met, SettledLead& settled, WorkerSlot& slot) {
   if (against_ && against_->is_refused(met.spec, slot))
     return settled.incidental_of_base.push_back(family_of(met)), Done{};
@@ -255,7 +256,7 @@ Result<Done> CaseWork::keep_incidental(const Case& met, SettledLead& settled, Wo
   return done(keep_lead(corpus_, lead));
 }
 
-// A failure is shrunk within the profile that found it, as far as that is known.
+// A failure is shrunk within the profile that found it, if that profile is known.
 std::function<bool(const Spec&)> CaseWork::allowed_for(const Case& original, const std::string& run) const {
   if (run == run_name(config_)) return within(config_.draw.profile, original.spec, generator_);
   for (const Profile& profile : built_in_profiles())

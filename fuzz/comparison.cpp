@@ -13,9 +13,9 @@ namespace {
 
 using SubjectName = std::pair<std::string, std::string>;  // check and subject
 
-constexpr double kTimesDeeper = 2.0;       // a failure of both builds got worse if it is so many times as deep
+constexpr double kTimesDeeper = 2.0;       // a failure of both builds got worse if it is this many times as deep
 constexpr std::size_t kMostRefusal = 500;  // bytes of a reason that are kept
-constexpr double kScalesDeeper = 1.0;      // and deeper by so many scales of its check
+constexpr double kScalesDeeper = 1.0;      // and deeper by at least this many scales of its check
 
 double depth_of_margin(double margin) {
   return std::isfinite(margin) ? -margin : std::numeric_limits<double>::infinity();
@@ -37,8 +37,8 @@ bool is_compared(const std::string& check, const CompareRules& rules) {
   return std::ranges::find(rules.checks, check) != rules.checks.end();
 }
 
-// Four digits a frame. The running hash differs from the first different frame on, and a motion that ends earlier
-// differs where it ends.
+// The first frame that differs. A trace has four digits per frame of a running hash, which stays different after the
+// first difference. A shorter motion differs at its end.
 int first_different_frame(const std::string& ours, const std::string& base) {
   if (ours.empty() || base.empty() || ours == base) return -1;
   const std::size_t both = std::min(ours.size(), base.size());
@@ -80,8 +80,8 @@ void add_change(Change change, const Family& family, Comparison& comparison) {
   }
 }
 
-// A failure of the base that a waiver hides is there all the same, so it is not new in this build. One of this build
-// that is hidden is no news either way.
+// A failure that a waiver hides in the base still counts there, so it is not new in this build. A failure that is
+// hidden in this build does not count in either direction.
 void compare_families(const std::string& character, const Measurement& ours, const Measurement& base,
                       const CompareRules& rules, Comparison& comparison) {
   const std::map<SubjectName, double> open = depths_of(ours, false), all = depths_of(ours, true);
@@ -125,7 +125,7 @@ std::string refusal_text(const Measurement& base) {
   std::string text = to_line(*base.refusal);
   if (text.size() <= kMostRefusal) return text;
   std::size_t end = kMostRefusal;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // never inside a UTF-8 character
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // does not cut a UTF-8 character
   return text.substr(0, end) + "…";
 }
 

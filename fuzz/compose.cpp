@@ -20,17 +20,17 @@ namespace contort {
 
 namespace {
 
-constexpr int kTimeToReturn = 50;  // frames in which a figure may come back to its target
+constexpr int kTimeToReturn = 50;  // frames in which a simulated figure may return to its target
 
-// Mostly the default, else one of a few: 0.5, 2, 0.8, 1.25.
+// The default in six cases of ten, otherwise 0.5, 2, 0.8 or 1.25.
 double speed_of(int raw, const Features& features) {
   if (!features.profile().speeds || features.omits("speed")) return 1.0;
   constexpr double kSpeeds[] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.5, 2.0, 0.8, 1.25};
   return kSpeeds[pick(raw, std::size(kSpeeds))];
 }
 
-// Unless a rule of the profile says otherwise, half of the blends are left as they are by default; the others take up to
-// 20 frames. A cut is a jump that its author wants: it is drawn where a rule asks for it.
+// A rule of the profile sets the range. Without a rule, half of the blends keep the default and the others take up to
+// 20 frames. A cut is a jump on purpose, so it is drawn only by a rule.
 int blend_of(int raw, int preset, const Features& features, const DrawRule* rule) {
   if (rule != nullptr) return between(raw, static_cast<int>(rule->low[0]), static_cast<int>(rule->high[0]));
   const int frames = features.omits("blend") ? 0 : between(raw, -20, 20);
@@ -41,7 +41,7 @@ bool is_pose(const OfferedAction& action) {
   return std::ranges::any_of(action.params, [](const ParamDef& def) { return def.domain == Domain::joint_range; });
 }
 
-// Whether a profile has its own ranges for a pose: then these count.
+// Returns true if a profile has its own ranges for a pose.
 bool narrows(const Profile& profile, const Part& part, const OfferedAction& action) {
   return profile.range < 1.0 || std::ranges::any_of(action.params, [&](const ParamDef& def) {
     return profile.rule_for(part.slot, action.name, def.name) != nullptr;
@@ -54,7 +54,7 @@ struct Stock {
   const Character& character;
   const Offers& offers;
   const Features& features;
-  const Environment& environment;  // where the figure stands when nothing moves it
+  const Environment& environment;  // the place in which the figure stands at rest
   std::vector<const Part*> parts;
 
   Actions actions(const Part& part) const {
@@ -68,7 +68,7 @@ struct Stock {
     return weighted(all, part);
   }
 
-  // Each as often as the profile wants it.
+  // Repeats each action as often as the profile's weight.
   Actions weighted(const Actions& all, const Part& part) const {
     Actions often;
     for (const OfferedAction* action : all)
@@ -196,7 +196,7 @@ Ground compose_ground(const std::array<int, kRawGround>& raw, const Features& fe
   return field;
 }
 
-// Some specs have a wall beside the character, 2 to 120 cm from it.
+// Adds a wall beside the character, 2 to 120 cm from it.
 void add_wall(int raw, const Character& character, EnvironmentDesc& environment) {
   const double side = raw % 2 == 0 ? 1.0 : -1.0;
   const double distance_m = extent_m(character, side) + 0.1 + 0.01 * between(raw * 3 % (kLattice + 1), 2, 120);
@@ -215,14 +215,14 @@ EnvironmentDesc compose_environment(const RawSpec& raw, const Features& features
   return environment;
 }
 
-// The obstacles alone, on a level plane: a figure at rest stands on any ground as it does there.
+// Returns the obstacles alone, on a level plane: a figure at rest stands on any ground like on this one.
 Environment walls_of(const EnvironmentDesc& environment) {
   EnvironmentDesc walls;
   walls.obstacles = environment.obstacles;
   return build_environment(walls).value();
 }
 
-// One of the sequences of the queue, which then has a name.
+// Chooses one of the sequences of the queue and gives it a name.
 SequenceDesc& named_sequence(Spec& spec, int raw) {
   const std::size_t index = pick(raw, spec.sequences.size());
   SequenceDesc& sequence = spec.sequences[index];
@@ -230,7 +230,7 @@ SequenceDesc& named_sequence(Spec& spec, int raw) {
   return sequence;
 }
 
-// Slots whose parts tell of an event while the queue plays, each once.
+// Slots whose parts can cause an event while the queue plays, each once.
 std::vector<std::string> slots_that_tell(Event event, const Stock& stock, const Spec& spec) {
   std::vector<std::string> slots;
   const auto add = [&](int part) {
@@ -248,7 +248,7 @@ std::vector<std::string> slots_that_tell(Event event, const Stock& stock, const 
 
 bool waits_for_slot(Event event) { return event == Event::contact || event == Event::aim_reached; }
 
-// As far as can be told before it is played: what nothing brings about, no interrupt should wait for.
+// Returns false if the spec cannot cause the event, as far as is known before playing: no interrupt should wait for it.
 bool can_happen(Event event, std::span<const std::string> slots, const Spec& spec) {
   if (waits_for_slot(event) || event == Event::impact) return !slots.empty();
   if (event == Event::near_obstacle) return !spec.environment.obstacles.empty();
@@ -304,7 +304,7 @@ Spec compose(const RawSpec& raw, const DrawConfig& config, Generator& generator)
   spec.rate_hz = manifest.rate_hz;
   spec.hold_frames = between(raw.hold, 0, 10);
   const Result<Character> character = build_character(spec.character, *manifest.library);
-  if (!character) return spec;  // the caller's build says why
+  if (!character) return spec;  // the caller's build gives the reason
   spec.environment = compose_environment(raw, features, manifest.can, *character);
   const Environment beside = walls_of(spec.environment);
   const Stock stock = stock_of(*character, generator.offers(*character), features, beside);

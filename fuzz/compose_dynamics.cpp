@@ -9,9 +9,9 @@ namespace contort {
 
 namespace {
 
-constexpr double kHeaviestLoad = 0.25;    // of the figure's mass
-constexpr double kHardestBlow_m_s = 1.0;  // of impulse a kilogram; a push that a person recovers from is 0.1
-constexpr double kMostInSpecs = 10000.0;  // kg, N s: what a spec may say (spec_fields.h)
+constexpr double kHeaviestLoad = 0.25;    // fraction of the figure's mass
+constexpr double kHardestBlow_m_s = 1.0;  // impulse per kilogram; a push from which a person recovers is 0.1
+constexpr double kMostInSpecs = 10000.0;  // kg, N s: greatest values in specs (spec_fields.h)
 constexpr int kLastBlow = 90;             // frame
 
 double mass_kg(const Character& character) {
@@ -22,7 +22,7 @@ double mass_kg(const Character& character) {
 
 double rounded(double value, double step) { return step * std::round(value / step); }
 
-// Evenly over the magnitudes' roots, so that half of the loads and blows are below a quarter of the greatest.
+// Uniform in the square root of the magnitude, so half of the loads and blows are below a quarter of the greatest.
 double drawn_up_to(double most, int raw) { return most * fraction(raw) * fraction(raw); }
 
 LoadDesc compose_load(const int* raw, const Character& character) {
@@ -60,7 +60,7 @@ DynamicsDesc compose_dynamics(const std::array<int, kRawDynamics>& raw, const Fe
     LoadDesc load = compose_load(&raw[3 + 2 * i], character);
     if (!load.slot.starts_with("object:")) dynamics.loads.push_back(std::move(load));
   }
-  // Tracking alone has neither strength nor balance to answer a blow with.
+  // The mode tracking has no strength or balance to answer a blow.
   const std::size_t blows = pick(raw[kBlowCount], static_cast<std::size_t>(profile.impacts) + 1);
   for (std::size_t i = 0; i < blows && dynamics.mode == Mode::dynamic; ++i)
     dynamics.impacts.push_back(compose_impact(&raw[7 + 5 * i], character));

@@ -11,7 +11,7 @@ namespace contort {
 
 namespace {
 
-// On the lattice, and never beyond the ends.
+// Rounds to the lattice, within the ends.
 double within(double value, double steps_per_unit, double low, double high) {
   const double rounded = on_lattice(value, steps_per_unit);
   if (rounded < low) return std::ceil(low * steps_per_unit) / steps_per_unit + 0.0;
@@ -25,13 +25,13 @@ Vec3 point_on_lattice(const Vec3& v, double steps_per_unit) {
   return out;
 }
 
-// Reads the raw values of one action one after another; wraps around where a part has more joints than there are
+// Reads the raw values of one action one after another. It starts again at the first one if a part has more joints than
 // values.
 class Values {
  public:
   Values(const std::array<int, kRawValues>& raw, double range) : raw_(raw), range_(range) {}
   double next() { return fraction(raw_[used_++ % kRawValues]); }
-  // A place in a joint's range, within the share of it that the profile allows.
+  // A place in a joint's range, within the fraction that the profile allows.
   double next_in_range() { return range_ == 1.0 ? next() : 0.5 + range_ * (next() - 0.5); }
   double range() const { return range_; }
 
@@ -41,11 +41,11 @@ class Values {
   std::size_t used_ = 0;
 };
 
-// A rotation within the ball joint's cone and twist, as a rotation vector in whole degrees. Rounding may carry it half
-// a degree over, so the draw stays 2 % inside.
+// A rotation within the ball joint's cone and twist, as a rotation vector in whole degrees. Rounding may add half a
+// degree, so the draw stays 2 % inside.
 Vec3 draw_ball_deg(const Joint& joint, Values& values) {
   const det::SinCos around = det::sincos(2.0 * kPi * values.next());
-  const double radius = 0.98 * values.range() * std::sqrt(values.next());  // even over the ellipse
+  const double radius = 0.98 * values.range() * std::sqrt(values.next());  // uniform over the ellipse
   const Vec3 other = glm::cross(joint.axis, joint.swing_axis);
   const Vec3 swing =
       radius * (joint.swing_a_rad * around.cos * joint.swing_axis + joint.swing_b_rad * around.sin * other);
@@ -61,7 +61,7 @@ ParamValue draw_joint(const Joint& joint, Values& values) {
   return within(value * kDegPerRad, 1.0, joint.low * kDegPerRad, joint.high * kDegPerRad);
 }
 
-// A point around the chain's upper joint at rest, between 0.3 and 1.1 of the stretched chain away, in centimetres.
+// A point around the chain's upper joint at rest, in centimetres. Its distance is 0.3 to 1.1 of the stretched chain.
 Vec3 draw_reach_point(const Character& character, const ReachChain& chain, Values& values) {
   std::vector<Rigid> world(character.joints().size());
   forward_kinematics(character, character.rest_root(), character.rest_coords(), world);
@@ -69,7 +69,7 @@ Vec3 draw_reach_point(const Character& character, const ReachChain& chain, Value
   const Vec3 middle = world[static_cast<std::size_t>(chain.middle)].p_m;
   const Vec3 tip = world_from_socket(character, world, chain.tip).p_m;
   const double distance = (length(middle - upper) + length(tip - middle)) * (0.3 + 0.8 * values.next());
-  const double height = 2.0 * values.next() - 1.0;  // even over the sphere
+  const double height = 2.0 * values.next() - 1.0;  // uniform over the sphere
   const det::SinCos around = det::sincos(2.0 * kPi * values.next());
   const double across = std::sqrt(1.0 - height * height);
   return point_on_lattice(upper + distance * Vec3(across * around.sin, height, across * around.cos), 100.0);
@@ -106,7 +106,7 @@ ParamValue draw_param(const Character& character, const Part& part, std::size_t 
   switch (def.domain) {
     case Domain::joint_range:
       return draw_joint(character.joints()[static_cast<std::size_t>(part.first_joint) + index], values);
-    case Domain::within_reach:  // large figures reach farther than a spec may say
+    case Domain::within_reach:  // large figures reach farther than specs allow
       return glm::clamp(draw_reach_point(character, part.reach.front(), values), Vec3(def.low), Vec3(def.high));
     case Domain::around: return draw_around(values);
     case Domain::uniform: break;
@@ -114,7 +114,8 @@ ParamValue draw_param(const Character& character, const Part& part, std::size_t 
   return draw_uniform(def, values);
 }
 
-// Draws a value that the rule and the parameter both allow; off the lattice where no step of it lies there.
+// Draws a value that the rule and the parameter both allow. If no lattice point lies in that range, it is the lower
+// end.
 ParamValue draw_by_rule(const DrawRule& rule, const ParamDef& def, Values& values) {
   const double steps = steps_of(def);
   const auto one = [&](std::size_t i) {
@@ -135,7 +136,7 @@ void draw_params(const Character& character, const Part& part, const OfferedActi
   Values values(raw, profile.range);
   const std::vector<ParamDef>& defs = action.params;
   for (std::size_t i = 0; i < defs.size(); ++i) {
-    // A parameter that makes an action of a file that action is changed in one case of four.
+    // A parameter that distinguishes an action of a file from others is changed in one case of four.
     if (defs[i].is_characteristic && values.next() < 0.75) continue;
     if (defs[i].optional && values.next() < 0.4) continue;
     const DrawRule* rule = profile.rule_for(part.slot, action.name, defs[i].name);

@@ -16,11 +16,11 @@ namespace contort {
 
 namespace {
 
-constexpr int kEnoughSamples = 30;              // failing and passing cases to learn from
-constexpr int kMostRounds = 3;           // of drawing, until there are enough and a rule holds
-constexpr double kAlwaysFrom = 0.95;         // share of failing draws from which on the rule has no comparison
-constexpr double kLeastPrecision = 0.8;  // of a rule that is told
-constexpr int kLeastTried = 20;          // fresh cases on each side, that a rule must have been tried on
+constexpr int kEnoughSamples = 30;              // least number of failing and of passing cases to learn from
+constexpr int kMostRounds = 3;  // greatest number of rounds of drawing, until there are enough cases and a rule holds
+constexpr double kAlwaysFrom = 0.95;         // fraction of failing draws above which the rule has no comparison
+constexpr double kLeastPrecision = 0.8;  // least precision of a reported rule
+constexpr int kLeastTried = 20;          // least number of fresh cases on each side on which a rule must be tried
 constexpr std::int64_t kMostDraws = 20'000;
 constexpr std::int64_t kFirstFresh = std::int64_t{1} << 32;  // index of the first fresh draw
 
@@ -50,13 +50,13 @@ class Search {
       : kind_(kind_of_check(minimal.expect.check)), population_(population), generator_(generator),
         evaluators_(generator, settings, options.jobs), options_(options) {}
 
-  // Draws and judges so many further cases to learn from.
+  // Draws and judges further cases to learn from.
   void learn_more(std::vector<RuleSample>& samples) {
     std::vector<RuleSample> more = judged(drawn(options_.draws, next_to_learn_));
     std::ranges::move(more, std::back_inserter(samples));
   }
 
-  // Draws until both sides of the rule have enough, and judges them.
+  // Draws until both sides of the rule have enough cases, and judges them.
   RuleTrial trial(const std::vector<Conjunction>& any_of) {
     std::array<std::vector<DrawnRequest>, 2> sides;
     std::array<int, 2> drawn_on{};
@@ -77,11 +77,11 @@ class Search {
     return trial;
   }
 
-  // Half of the draws must have come to their end, for what they show to hold for the others.
+  // At least half of the draws must have finished; otherwise the sample says nothing about the rest.
   Result<Done> enough_ran() const {
     const int ended = endings_.count();
     if (endings_.late() < kMostLateDraws && 2 * ended <= judged_) return Done{};
-    const bool is_late = endings_.late() >= kMostLateDraws;  // then not all were asked for
+    const bool is_late = endings_.late() >= kMostLateDraws;  // then not all draws were run
     const std::string share = std::to_string(ended) + (is_late ? "" : " of " + std::to_string(judged_));
     return Issue{"explain.program_ended", "",
                  "no condition can be learned, because the generator makes no motion of " + share +
@@ -96,7 +96,8 @@ class Search {
     return all;
   }
 
-  // A draw that ends the program under test, or is refused, is no sample. If some are too late, no further ones run.
+  // A draw that ends the program under test, or is refused, is no sample. After too many late draws no further ones
+  // run.
   std::vector<RuleSample> judged(std::vector<DrawnRequest> all) {
     std::vector<char> fails(all.size(), 0), ran(all.size(), 0);
     parallel_for(options_.jobs, static_cast<int>(all.size()), [&](int worker, int index) {
@@ -126,12 +127,12 @@ class Search {
 
   CheckKind kind_;
   Endings endings_;
-  int judged_ = 0;  // draws that were asked for
+  int judged_ = 0;  // number of draws that were judged
   const Population& population_;
   Generator& generator_;
   Evaluators evaluators_;
   const ConditionSearch& options_;
-  std::int64_t next_to_learn_ = 0;  // indices of draws
+  std::int64_t next_to_learn_ = 0;  // index of the next draw to learn from
   std::int64_t next_fresh_ = kFirstFresh;
 };
 
@@ -141,7 +142,7 @@ std::vector<Conjunction> learned(const std::vector<RuleSample>& samples, int fai
   return rule ? *rule : std::vector<Conjunction>{};
 }
 
-// Enough failing and passing cases, or hardly any that pass.
+// True if there are enough failing and passing cases, or if almost all cases fail.
 bool has_enough(const Condition& condition) {
   const int passing = condition.drawn - condition.failing;
   return std::min(condition.failing, passing) >= kEnoughSamples || condition.failing >= kAlwaysFrom * condition.drawn;

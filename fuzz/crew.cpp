@@ -7,7 +7,7 @@ namespace contort {
 
 namespace {
 
-constexpr double kSettlingPatience = 4.0;  // what hangs is run to its limit in a process of its own
+constexpr double kSettlingPatience = 4.0;  // a failure may first run to its time limit in a process of its own
 
 }  // namespace
 

@@ -11,9 +11,10 @@ namespace contort {
 
 namespace {
 
-constexpr std::size_t kMostExperiments = 16;  // a spec with more actions was not shrunk; then all of them are its company
+// A spec with more actions was not shrunk; then all its actions count as company.
+constexpr std::size_t kMostExperiments = 16;
 
-// Whether a finding is of the same kind as the failure, and on one of its limbs.
+// Returns true if a finding is of the same kind as the failure, and on one of its limbs.
 bool is_alike(const Finding& finding, const Expectation& failure) {
   if (kind_of_check(finding.check) != kind_of_check(failure.check)) return false;
   const std::vector<std::string> limbs = limbs_of(failure.subject);
@@ -27,7 +28,7 @@ class Experiments {
   Experiments(const Case& minimal, Evaluator& evaluator, const CauseSearch& search)
       : minimal_(minimal), evaluator_(evaluator), search_(search) {}
 
-  // The depth of the deepest finding like the failure while this action plays alone; below 0 if there is no such one.
+  // The depth of the deepest finding like the failure while this action plays alone; negative if there is none.
   double depth_alone(const LoneAction& one) {
     Spec spec = minimal_.spec;
     spec.interrupts.clear();
@@ -68,7 +69,7 @@ class Experiments {
     return evaluator_.run(spec);
   }
 
-  // Returns false, too, if no process can be started; then the spec runs in this one.
+  // Also returns false if no process can be started; the spec then runs in this one.
   bool ends_its_process(const Spec& spec) {
     Isolation guard = *search_.guard;
     guard.silent = true;
@@ -85,7 +86,7 @@ class Experiments {
   std::vector<Case> met_;
 };
 
-// The deepest first, of equally deep ones by name; nothing if no action fails alone.
+// The names of actions that fail alone, the deepest first, equally deep ones by name.
 std::vector<std::string> culprits_of(const Spec& minimal, Experiments& experiments) {
   std::map<std::string, double> depths;
   for (const LoneAction& one : lone_actions_of(minimal))

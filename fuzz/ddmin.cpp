@@ -6,12 +6,12 @@ namespace contort {
 
 namespace {
 
-// Tries to take away one chunk after the other; how many are left.
+// Tries to remove one chunk after the other. Returns how many chunks are left.
 int remove_chunks(int chunks, const std::function<int()>& count, const std::function<bool(int, int)>& remove) {
   for (int c = 0; c < chunks && count() > 1;) {
     const int first = c * count() / chunks, end = (c + 1) * count() / chunks;
     if (chunks > 1 && remove(first, end - first))
-      --chunks;  // the next chunk has moved up to this one's place
+      --chunks;  // the next chunk now has this index
     else
       ++c;
   }

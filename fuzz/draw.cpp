@@ -1,7 +1,8 @@
-// RapidCheck draws a RawSpec, which is nothing but bounded whole numbers; compose() reads it as choices among what the
-// generator offers. RapidCheck traps that shape this file (docs/internals/fuzzing.md): gen::exec and `*gen` are not
-// thread safe, so only pure combinators are used; list lengths of gen::container follow the size parameter and multiply
-// when nested, so lists have their own generator; there is no bounded real, so reals are whole numbers on a lattice.
+// RapidCheck draws a RawSpec, which contains only bounded whole numbers; compose() reads them as choices among the
+// generator's offers. Three properties of RapidCheck shape this file (docs/internals/fuzzing.md). gen::exec and `*gen`
+// are not thread safe, so only pure combinators are used. List lengths of gen::container follow the size parameter and
+// multiply when nested, so lists have their own generator. There is no bounded real, so reals are whole numbers on a
+// lattice.
 #include "fuzz/draw.h"
 
 #include <rapidcheck.h>
@@ -17,7 +18,7 @@ namespace {
 constexpr int kSize = 100;                                    // RapidCheck's size; nothing here depends on it
 constexpr std::uint64_t kDrawStream = 0x636f6e746f727436ULL;  // changes when the meaning of (seed, index) changes
 
-// Uniform on 0 … kLattice, from one draw of the splittable generator.
+// Uniform on 0 … kLattice. It consumes one draw of the splittable generator.
 rc::Gen<int> lattice() {
   return [](const rc::Random& random, int) {
     rc::Random own(random);
@@ -25,7 +26,7 @@ rc::Gen<int> lattice() {
   };
 }
 
-// 1 to `most` elements; the length is drawn apart from the elements.
+// A list of 1 to `most` elements; its length is drawn independently of the elements.
 template <class T>
 rc::Gen<std::vector<T>> list_up_to(int most, const rc::Gen<T>& element) {
   return [=](const rc::Random& random, int size) {

@@ -27,7 +27,7 @@ void for_actions(Spec& spec, Visit visit) {
   });
 }
 
-// Removes elements [first, first + count) of a list whose own elements are numbered from `base` on.
+// Removes the elements numbered [first, first + count) from a list whose elements are numbered from `base` on.
 template <class List>
 void remove_numbered(List& list, int base, int first, int count) {
   const int size = static_cast<int>(list.size());
@@ -36,7 +36,7 @@ void remove_numbered(List& list, int base, int first, int count) {
   list.erase(std::next(list.begin(), from), std::next(list.begin(), to));
 }
 
-// The same over many lists that are numbered through.
+// Removes numbered elements from several lists, whose elements are numbered continuously.
 template <class List>
 struct Numbering {
   int first;

@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kQuarters = 4;
 
-// The default first, as most fields are there because without them all is well: then one motion answers. Further half
-// of the way to it, and the ends and quarters of the range.
+// Tries the default first: most fields of a minimal spec matter, and one motion without failure shows it. Then it tries
+// the middle between value and default, and the ends and quarters of the range.
 std::vector<double> other_numbers(const SpecField& place) {
   if (!std::isfinite(place.low) || !std::isfinite(place.high) || place.low == place.high) return {};
   std::vector<double> values = {place.preset, 0.5 * (place.value + place.preset)};

@@ -58,7 +58,7 @@ FailureQueue::CaseId FailureQueue::case_of(const FailureJob& job) const {
   return {state_.record.name, std::get<WantedFailure>(job).task.lineage.back()};
 }
 
-// Settles one failure of a case at a time: what a minimal spec shows too is not settled any more.
+// Processes one failure of a case at a time: failures that its minimal spec also shows need not be shrunk.
 std::optional<FailureJob> FailureQueue::next(bool with_waiting) {
   const auto is_free = [&](const WantedFailure& job) {
     return std::ranges::find(in_hand_, case_of(job)) == in_hand_.end();
@@ -104,8 +104,8 @@ void FailureQueue::take_wanted(const WantedFailure& job, const WorkerEvent& even
   keep_unsteady(*job.ender);
 }
 
-// It may have been another process that did it, or this one under another name before. What ended its worker waits for
-// a run with a guard: it is tried once more, like any other.
+// The lead may already be gone: another process, or this one, has filed it. A lead that ended its worker is tried once
+// more with a guard.
 void FailureQueue::take_waiting(WaitingLead job, const WorkerEvent& event) {
   if (event.end == WorkerEnd::replied) {
     const ShrinkReport report = parse_report<ShrinkReport>(event.text);
@@ -121,7 +121,7 @@ void FailureQueue::take_waiting(WaitingLead job, const WorkerEvent& event) {
   waiting_.push_front(std::move(job));
 }
 
-// Its worker has kept all of it as leads. Those of a shard `merge` files.
+// The worker has stored all these leads. With shards, `merge` files them.
 void FailureQueue::take_settled(const SettledLead& settled) {
   const auto note = [&](const Lead& lead) { add_once(state_.unconfirmed, lead_path(corpus_, lead)); };
   settled.confirmed ? file(settled.lead) : note(settled.lead);
@@ -129,8 +129,8 @@ void FailureQueue::take_settled(const SettledLead& settled) {
   for (const Lead& lead : settled.incidental_unconfirmed) note(lead);
 }
 
-// A shard leaves it to `merge` to find the families of the case that need no bucket of their own: it shrinks more than
-// a whole run.
+// Removes failures that need no bucket of their own, because the minimal spec of their case shows them. In a shard
+// `merge` does this, so a shard shrinks more than a whole run.
 void FailureQueue::settle_no_more(const SettleTask& of_case, const std::set<Family>& families) {
   const auto is_settled = [&](const SettleTask& task) {
     return task.lineage == of_case.lineage && families.contains(task.family);
@@ -139,8 +139,8 @@ void FailureQueue::settle_no_more(const SettleTask& of_case, const std::set<Fami
   std::erase_if(wanted_, [&](const WantedFailure& job) { return is_settled(job.task); });
 }
 
-// A candidate of its shrinking ended the process: a failure of its own, kept at once. The guarded worker meets it
-// again, or else it is not confirmed. It still comes before the later failures of its case.
+// A candidate of the shrinking ended the process. This is a failure of its own and is stored at once. The guarded
+// worker must find it again, otherwise it is not confirmed. The job stays before the later failures of its case.
 void FailureQueue::shrink_guarded(WantedFailure job, const WorkerEvent& event) {
   const SettleTask& task = job.task;
   const Spec given = spec_of(config_, generator_, task.lineage);
@@ -164,14 +164,14 @@ void FailureQueue::keep(const Lead& lead) {
   if (const Result<std::string> kept = keep_lead(corpus_, lead); !kept) fail(kept.issue());
 }
 
-// A failure that was seen once and did not come again. Whoever looks for it begins with its spec.
+// Stores a failure that showed once and not again, so that a person can start from its spec.
 void FailureQueue::keep_unsteady(Lead lead) {
   lead.original.provenance.shrink_stopped = kUnsteady;
   keep(lead);
   add_once(state_.unconfirmed, lead_path(corpus_, lead));
 }
 
-// A failure of a case of this run, as it was seen.
+// Makes a lead of a failing case of this run.
 Lead FailureQueue::lead_of(const Case& seen, const Lineage& lineage, int rank) const {
   Lead lead{state_.record.name, seen, {}};
   lead.original.provenance = provenance_in(config_, lineage.back());

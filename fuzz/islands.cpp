@@ -10,9 +10,9 @@ namespace contort {
 
 namespace {
 
-constexpr std::size_t kPool = 3;          // cases of one subject
-constexpr std::size_t kLongestLine = 24;  // ancestors: making a case again takes as many mutations
-constexpr int kTournament = 4;            // subjects, of which the most promising one is chosen
+constexpr std::size_t kPool = 3;          // greatest number of cases of one subject
+constexpr std::size_t kLongestLine = 24;  // greatest number of ancestors; making a case again takes as many mutations
+constexpr int kTournament = 4;            // number of subjects from which the most promising one is chosen
 constexpr std::uint64_t kParentStream = 0x706172656e74ULL;
 
 bool insert_sorted(std::vector<Family>& list, const Family& family) {
@@ -42,7 +42,7 @@ double TargetPool::relative_distance() const {
   return nearest.front().margin / (farthest - nearest.front().margin);
 }
 
-// The best of a few that are thrown evenly: all get their turn, the promising ones more often.
+// The best of a few that are drawn uniformly: all have a chance, promising ones a greater one.
 const TargetPool* Island::promising(Dice& dice) const {
   std::vector<const TargetPool*> open;
   for (const auto& [family, pool] : pools)

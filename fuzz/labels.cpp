@@ -17,7 +17,7 @@ std::string pair_label(const std::string& one, const std::string& other, const s
   return "pair " + std::min(one, other) + " + " + std::max(one, other) + " on " + slot;
 }
 
-// In which phases an action moved the part that it names: a bit for each.
+// The phases in which an action moved the part that it names, one bit for each.
 unsigned phases_in(const IntendedAction& action, const Motion& motion, const std::vector<Phase>& of_frames) {
   unsigned phases = 0;
   for (const ActionSpan& span : motion.spans)
@@ -26,7 +26,7 @@ unsigned phases_in(const IntendedAction& action, const Motion& motion, const std
   return phases;
 }
 
-// Each use of an action, as the spec has it.
+// Visits each use of an action in the spec.
 template <class Visit>
 void for_uses(const Spec& spec, Visit visit) {
   const auto each = [&](const SequenceDesc& sequence) {
@@ -59,12 +59,12 @@ void add_phases(const Intent& intent, const Offers& offers, const Execution& exe
   }
 }
 
-// More than the frame in which the one ends and the other begins.
+// Returns true if the actions share more than the frame in which one ends and the other begins.
 bool overlap(const IntendedAction& x, const IntendedAction& y) {
   return x.sequence == y.sequence && x.part == y.part && x.first_frame < y.last_frame && y.first_frame < x.last_frame;
 }
 
-// Labels of actions that the spec has move one part at the same time.
+// Labels of pairs of actions that the spec lets move one part at the same time.
 std::set<std::string> pairs_of(const Intent& intent, const Character& character) {
   std::set<std::string> pairs;
   for (auto x = intent.actions.begin(); x != intent.actions.end(); ++x)
@@ -98,12 +98,12 @@ std::vector<std::string> labels_of(const Spec& spec, Generator& generator, const
   return labels;
 }
 
-// A slot's pairs are of what its parts can do, an action with itself too, and of what moves them from elsewhere.
+// Pairs of a slot: all actions of its parts, also with themselves, and actions of other slots that move it.
 std::set<std::string> possible_labels(Generator& generator, const Character& character) {
   const Offers& offers = generator.offers(character);
   const auto slot_of = [&](std::size_t part) -> const std::string& { return character.parts()[part].slot; };
   std::set<std::string> labels;
-  std::map<std::string, std::set<std::string>> movers;  // actions, by the slot that they move
+  std::map<std::string, std::set<std::string>> movers;  // names of actions, by the slot that they move
   for (std::size_t p = 0; p < offers.size(); ++p)
     for (const OfferedAction& action : offers[p]) {
       labels.insert(use_label(action, slot_of(p)));

@@ -13,17 +13,17 @@ namespace {
 
 enum Stream : std::uint64_t { kChoice, kChange };
 
-constexpr int kThrows = 8;  // of one mutation
+constexpr int kThrows = 8;  // most tries of one mutation
 
-// docs/internals/search_measurements.md has what these are worth.
-constexpr std::uint64_t kMates = 4;    // that are laid over a case
-constexpr std::uint64_t kGrounds = 2;  // of them may bring another ground to a case that is on level ground
+// docs/internals/search_measurements.md has the effect of these numbers.
+constexpr std::uint64_t kMates = 4;    // number of draws that are overlaid on a case
+constexpr std::uint64_t kGrounds = 2;  // number of these that may replace the ground of a case on level ground
 
-// Cases of a run until guidance has its whole share. With all of it from the first case on, 3,000 cases showed 130
-// families, and even draws 144 (docs/internals/search_measurements.md).
+// The number of cases after which guidance has its whole share. With all of it from the first case on, 3,000 cases
+// showed 130 families; uniform draws showed 144 (docs/internals/search_measurements.md).
 constexpr double kLearning = 4096.0;
 
-// `config` and `generator` say what the numbers mean.
+// Mutates until the spec changes. `config` and `generator` give the numbers their meaning.
 RawSpec child_of(const RawSpec& parent, const RawSpec& mate, Dice& dice, const DrawConfig& config,
                  Generator& generator) {
   const Spec before = compose(parent, config, generator);
@@ -58,10 +58,11 @@ bool wants_guidance(const Odds& odds, std::int64_t index) {
   return Dice(odds.seed, index, kChoice).below(100) < 100.0 * odds.guided * learned;
 }
 
-// A share is even; the rest are overlaid with other draws, and have corners, or features left out, or both, or neither.
+// A share of the cases is drawn uniformly. The others are overlaid with other draws, and may get corner values,
+// left-out features, or both.
 Strategy unguided(const Odds& odds, std::int64_t index) {
   Dice dice(odds.seed, index, kChoice);
-  dice.next();  // wants_guidance
+  dice.next();  // skips the number that wants_guidance uses
   if (dice.below(100) < 100.0 * odds.uniform) return Strategy::uniform;
   constexpr std::pair<Strategy, int> kPercent[] = {
       {Strategy::corners, 70}, {Strategy::overlaid, 20}, {Strategy::swarm, 5}};

@@ -16,7 +16,7 @@ int& one_number(List& numbers, Dice& dice) {
   return numbers[static_cast<std::size_t>(dice.below(static_cast<int>(numbers.size())))];
 }
 
-// Picks a clip of a sequence, or now and then of one that interrupts.
+// Picks a clip of a sequence, sometimes of an interrupt's sequence.
 RawClip* one_clip(RawSpec& raw, Dice& dice) {
   const bool interrupts = !raw.interrupts.empty() && dice.one_in(5);
   if (!interrupts && raw.sequences.empty()) return nullptr;
@@ -29,7 +29,7 @@ RawAction* one_action(RawSpec& raw, Dice& dice) {
   return clip == nullptr || clip->actions.empty() ? nullptr : &one_of(clip->actions, dice);
 }
 
-// Actions read their values from the front, and most have few: the first ones are chosen most often.
+// Actions read their values from the front, and most use few, so the first ones are chosen most often.
 int& one_value(RawAction& action, Dice& dice) {
   const double share = fraction(dice.raw());
   return action.values[static_cast<std::size_t>(share * share * (kRawValues - 1))];
@@ -41,7 +41,7 @@ int& number_of_action(RawAction& action, Dice& dice) {
   return dice.one_in(2) ? *own[dice.below(7)] : one_value(action, dice);
 }
 
-// When it comes matters most.
+// The start of the interrupt matters most.
 int& number_of_interrupt(RawInterrupt& interrupt, Dice& dice) {
   int* const own[] = {&interrupt.what,  &interrupt.what,  &interrupt.event,
                       &interrupt.enter, &interrupt.after, &interrupt.resume};
@@ -65,8 +65,8 @@ int& number_of_clip(RawClip& clip, Dice& dice) {
   return *own[dice.below(3)];
 }
 
-// Mostly of an action: that is where the motion is. A scene without blows or interrupts has numbers of them, too;
-// changes to those are thrown again (lineage.h).
+// Mostly a number of an action, because actions make the motion. A scene without blows or interrupts has unused numbers
+// for them; a change to these has no effect and is drawn again (lineage.h).
 int& one_number_of(RawSpec& raw, Dice& dice) {
   if (dice.one_in(5)) return number_of_scene(raw, dice);
   if (!raw.interrupts.empty() && dice.one_in(5)) return number_of_interrupt(one_of(raw.interrupts, dice), dice);
@@ -75,7 +75,7 @@ int& one_number_of(RawSpec& raw, Dice& dice) {
   return number_of_scene(raw, dice);
 }
 
-// Evenly within a tenth or four tenths of the range to either side, or to an end, or anywhere.
+// Moves a number by up to one tenth or four tenths of its range, or sets it to an end or to any value.
 void move_number(RawSpec& raw, const RawSpec&, Dice& dice) {
   int& number = one_number_of(raw, dice);
   const int reach = dice.one_in(2) ? kLattice / 10 : 4 * kLattice / 10;
@@ -193,7 +193,8 @@ void overlay(RawSpec& raw, const RawSpec& mate) {
   add_up_to(kMostInterrupts, raw.interrupts, std::span(mate.interrupts));
   for (const std::size_t count : {kLoadCount, kBlowCount})
     raw.dynamics[count] = std::max(raw.dynamics[count], mate.dynamics[count]);
-  raw.interrupted = std::min(raw.interrupted, mate.interrupted);  // the smaller, the likelier (compose.cpp)
+  // The smaller the number, the likelier an interrupt (compose.cpp).
+  raw.interrupted = std::min(raw.interrupted, mate.interrupted);
 }
 
 void go_to_corners(RawSpec& raw, Dice& dice) {

@@ -85,7 +85,7 @@ Result<Done> Population::add_variant(const CharacterChoice& choice, Generator& g
   return Done{};
 }
 
-// Other parts for the slots that the actions use. A part with which nothing can be attached as it is, is left out.
+// Adds other parts for the slots that the actions use. Parts with which the character does not build are left out.
 void Population::add_swaps(Generator& generator) {
   const Library& library = *generator.manifest().library;
   const auto desc = library.characters.find(base_.character.name);
@@ -134,7 +134,7 @@ void Population::vary_sequence(const Variant& variant, Dice& dice, bool keeps_ha
 void Population::vary_use(const Variant& variant, Dice& dice, bool keeps_half, ActionUse& use) const {
   const auto keeps = [&] { return keeps_half && dice.one_in(2); };
   const std::vector<int> parts = parts_for(variant, use);
-  if (parts.empty()) return;  // the request will be refused
+  if (parts.empty()) return;  // the generator will refuse the request
   const Character& character = variant.character;
   if (!keeps()) use.slot = character.parts()[at(parts[at(dice.below(static_cast<int>(parts.size())))])].slot;
   const int part = character.find_part(use.slot);
@@ -151,7 +151,7 @@ void Population::vary_use(const Variant& variant, Dice& dice, bool keeps_half, A
   if (!keeps()) use.blend_out_frames = fresh.blend_out_frames;
 }
 
-// The parts that have the same action with the same parameters.
+// The parts that have the same action, with the same parameters.
 std::vector<int> Population::parts_for(const Variant& variant, const ActionUse& use) {
   std::vector<int> parts;
   const OfferedAction* own = find_offer(variant.offers, variant.character.find_part(use.slot), use.action);

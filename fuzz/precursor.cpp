@@ -16,7 +16,8 @@ bool are_of_one_time(const Case& a, const Case& b) {
   return a.expect.first_frame - b.expect.last_frame <= between && b.expect.first_frame - a.expect.last_frame <= between;
 }
 
-// A number that is NaN breaks the limits of every check; the one that says so comes first.
+// The order of failures. NaN breaks the limits of every check, so among equal failures the check of broken numbers
+// comes first.
 auto place_of(const Case& shown) {
   const bool is_broken = kind_of_check(shown.expect.check) == CheckKind::broken;
   return std::tuple(shown.expect.first_frame, -depth_of(shown.expect), !is_broken, family_of(shown));

@@ -1,4 +1,4 @@
-// Holds what a profile says against a generator and its library.
+// Checks a profile against a generator and its library.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -14,13 +14,13 @@ namespace {
 
 using json_fields::quoted;
 
-// An action that a character's part in a slot has.
+// An action of a character's part in a slot.
 struct Movement {
   std::string character, slot, action;
   std::vector<ParamDef> params;
 };
 
-// Names that a library has, and what may be moved.
+// The names of a library, and the movements that its characters can make.
 struct Known {
   std::set<std::string> characters, slots, actions;
   std::vector<Movement> movements;
@@ -77,7 +77,7 @@ Result<Done> check_blend(const DrawRule& rule, const std::string& pointer) {
                rule.param + " is one whole number, from 0 to " + std::to_string(static_cast<int>(kBlendOut.high))};
 }
 
-// Whether a parameter can have a value that the rule allows.
+// Checks that a parameter can have a value that the rule allows.
 Result<Done> check_range(const DrawRule& rule, const ParamDef& def, const Movement& of, const std::string& pointer) {
   const std::string whose = "of " + of.action + " in slot " + of.slot + " of " + of.character;
   if (def.type != ParamType::number && def.type != ParamType::vector)
@@ -118,7 +118,7 @@ Result<Done> check_rule(const DrawRule& rule, const Known& known, const std::str
   return rule.param.empty() ? Result<Done>(Done{}) : check_param(rule, known, pointer);
 }
 
-// Something of every character has to move; those that the library does not have are refused where they are built.
+// Every character must be able to move. Characters that the library does not have are refused when they are built.
 Result<Done> check_moves(const Profile& profile, const std::vector<std::string>& characters, const Known& known) {
   const DrawRule allowed{profile.slots, profile.actions, false, {}, {}, {}, 0};
   for (const std::string& character : characters) {

@@ -14,7 +14,8 @@ bool is_among(const std::vector<std::string>& names, const std::string& name) {
   return names.empty() || std::ranges::find(names, name) != names.end();
 }
 
-// A rule has one limit for all of a vector, or one for each of its numbers. Without a value (NaN) nothing is outside.
+// A rule has one limit for all components of a vector, or one for each. NaN stands for a missing value and is never
+// outside.
 bool is_outside(const DrawRule& rule, const ParamValue& value) {
   const auto beyond = [&](double number, std::size_t i) {
     return number < rule.low[std::min(i, rule.low.size() - 1)] || number > rule.high[std::min(i, rule.high.size() - 1)];
@@ -79,7 +80,7 @@ class ProfileViolations {
   const Profile& profile_;
   Generator& generator_;
   const Character* character_;
-  bool is_known_ = true;  // all actions are: they can take turns
+  bool is_known_ = true;  // all actions are known, so they can take turns
   int count_ = 0;
 };
 

@@ -14,19 +14,19 @@ namespace {
 using known::Op;
 using known::Quantity;
 
-constexpr std::size_t kBeam = 16;         // conjunctions that are made longer
-constexpr std::size_t kFirstOfPairs = 6;  // conjunctions for which a second one is looked for
+constexpr std::size_t kBeam = 16;         // number of conjunctions that are extended
+constexpr std::size_t kFirstOfPairs = 6;  // number of conjunctions that are tried with a second one
 constexpr double kEqual = 1.0;            // weight of recall against precision
-constexpr double kPrecise = 0.1;           // of the first of two conjunctions, which need not cover everything
-constexpr double kPerComparison = 0.02;   // of F1, so that a comparison must be worth it
+constexpr double kPrecise = 0.1;  // the same for the first of two conjunctions, which need not cover everything
+constexpr double kPerComparison = 0.02;   // cost of a comparison in F1, so that it must improve the rule
 constexpr double kPerDerived = 0.01;
 
-// One number or word of each sample.
+// One number or word for each sample.
 struct Column {
-  ConditionTerm term;            // what is compared, without operator and limit
-  std::vector<double> amounts;   // by sample; NaN where a sample does not tell it
-  std::vector<int> order;        // samples that tell it, by rising amount
-  std::vector<std::string> words;  // of a column of words, by sample
+  ConditionTerm term;            // the compared value, without operator and limit
+  std::vector<double> amounts;   // value of each sample; NaN if a sample does not have it
+  std::vector<int> order;        // samples that have the value, by rising value
+  std::vector<std::string> words;  // words of the samples, in a column of words
 };
 
 // ---- columns
@@ -86,7 +86,8 @@ class Table {
         lowest = std::min(lowest, plain);
       column.amounts.push_back(amount);
     }
-    if (is_of_magnitude(term.quantity) && lowest >= 0.0) return;  // nothing negative: the same as without it
+    // Without negative values the magnitude equals the value.
+    if (is_of_magnitude(term.quantity) && lowest >= 0.0) return;
     for (std::size_t i = 0; i < column.amounts.size(); ++i)
       if (!std::isnan(column.amounts[i])) column.order.push_back(static_cast<int>(i));
     std::ranges::stable_sort(column.order, {}, [&](int i) { return column.amounts[static_cast<std::size_t>(i)]; });
@@ -104,9 +105,9 @@ class Table {
 
   std::vector<char> fails_;
   std::vector<std::vector<known::Value>> values_;
-  std::map<std::string, bool> numbers_;  // by name, whether they are mirrored
+  std::map<std::string, bool> numbers_;  // by name: true if the number is mirrored
   std::set<std::string> words_;
-  std::set<std::string> on_right_;       // actions that a part of the right side does in a sample
+  std::set<std::string> on_right_;       // names of actions that a part on the right side performs in a sample
   std::vector<Column> columns_;
 };
 
@@ -119,11 +120,11 @@ struct Counts {
 
 struct Node {
   Conjunction terms;
-  std::vector<char> inside;  // by sample
+  std::vector<char> inside;  // one flag for each sample
   double score = 0.0;
 };
 
-// A comparison that might make a conjunction longer.
+// A comparison that may extend a conjunction.
 struct Candidate {
   const Node* from = nullptr;
   ConditionTerm term;
@@ -143,8 +144,8 @@ class Learner {
     for (const char fails : table.fails()) all_failing_ += fails;
   }
 
-  // Conjunctions of one to `most` comparisons, the best first, that together with what is covered tell failures best by
-  // the F-measure that weighs recall like this.
+  // Conjunctions of one to `most` comparisons, the best first. Their score is the F-measure, with this weight of
+  // recall, of the conjunction together with the covered samples.
   std::vector<Node> conjunctions(const std::vector<char>& covered, double cost, std::size_t most,
                                  double recall_weight) {
     covered_ = counts_of(covered), cost_ = cost, recall_weight_ = recall_weight;
@@ -172,7 +173,7 @@ class Learner {
     return counts;
   }
 
-  // Van Rijsbergen's F with beta squared as the weight of recall; F1 for kEqual.
+  // Van Rijsbergen's F-measure with beta squared as the weight of recall; F1 for kEqual.
   double f_measure(const Counts& counts) const {
     const double both = counts.failing + counts.passing + recall_weight_ * all_failing_;
     return both > 0.0 ? (1.0 + recall_weight_) * counts.failing / both : 0.0;
@@ -216,7 +217,7 @@ class Learner {
     return !column.words[i].empty() && (column.words[i] == term.word) == (term.op == Op::is);
   }
 
-  // The best limit from above and the best one from below.
+  // Adds the best upper and the best lower limit.
   void add_limits(const Node& node, const Column& column, std::vector<Candidate>& out) const {
     std::vector<int> order;
     Counts total, below;
@@ -268,8 +269,8 @@ class Learner {
 
   const Table& table_;
   int all_failing_ = 0;
-  Counts covered_;     // by the first of two conjunctions
-  double cost_ = 0.0;  // of that
+  Counts covered_;     // counts of the samples that the first of two conjunctions covers
+  double cost_ = 0.0;  // cost of the first conjunction
   double recall_weight_ = kEqual;
 };
 

@@ -38,7 +38,7 @@ RunState fresh_state(const RunConfig& config) {
   return state;
 }
 
-// Whom a run asks and tells.
+// The callbacks of a run.
 struct Listeners {
   const std::function<void(const RunProgress&)>& progress;
   const std::function<bool()>& stop;
@@ -91,7 +91,8 @@ class Run {
     settle_the_rest(crew);
   }
 
-  // Cases are over. Once time is up, what is left is only kept: another run on this corpus shrinks it.
+  // All cases have run. Once time is up, the remaining failures are only stored; another run on this corpus shrinks
+  // them.
   void settle_the_rest(Crew& crew) {
     while (ok() && !result_.interrupted && (crew.busy() > 0 || !failures_.is_done(has_time_for_waiting()))) {
       if (listeners_.stop()) result_.interrupted = true;
@@ -124,7 +125,7 @@ class Run {
     report();
   }
 
-  // Failures go first: what was found shall be on its way to the user.
+  // Failures go before new cases, so that findings reach the user soon.
   std::optional<Job> next_job() {
     if (const std::optional<FailureJob> failure = failures_.next(has_time_for_waiting())) return *failure;
     if (const std::optional<int> place = round_.next()) return PlacedCase{*place, round_.task(*place)};
@@ -140,8 +141,8 @@ class Run {
     round_.take_ending(place, ended, state_.record.families.contains(family_of(ended)));
   }
 
-  // In the order of cases. A round that time cut short counts up to the first case that did not run, but whoever
-  // resumes begins it again.
+  // Processes the results in the order of cases. If time cut a round short, its cases count up to the first one that
+  // did not run; a resumed run begins the round again.
   void fold_round() {
     if (!round_.is_whole()) {
       keep_state_now();
@@ -176,19 +177,18 @@ class Run {
     pace_.kept(now_s, steady_s());
   }
 
-  // The state that is kept is from before a round that was cut.
+  // After a round was cut short, the stored state remains the one from before this round.
   void keep_state_now() {
     if (!ok() || is_cut_) return;
     if (const Result<Done> kept = keep_state(corpus_, state_); !kept) fail(kept.issue());
   }
 
-  // The workers are gone, and under the run's lock there are no others.
+  // All workers have ended, and the run's lock keeps other processes away.
   void finish() {
     fail(failures_.issue());
     if (const Result<Done> dropped = drop_half_written(corpus_, state_.record); !dropped) fail(dropped.issue());
     tidy_leads(corpus_, state_.record.name);
-    // A shard that was stopped has no record: merging it would take what it did so far for all that it has to
-    // say.
+    // A stopped shard writes no record: merge would take it for a complete one.
     if (ok() && !(result_.interrupted && config_.shard.count > 1))
       if (const Result<Done> kept = keep_run(corpus_, state_.record); !kept) fail(kept.issue());
     if (result_.interrupted || !ok())
@@ -233,7 +233,7 @@ class Run {
   KeepingPace pace_{start_s_};
   RunState state_;
   Round round_{config_.against.has_value()};
-  bool is_cut_ = false;  // the last round was not done whole
+  bool is_cut_ = false;  // the last round was cut short
   FailureQueue failures_{config_, generator_, corpus_, state_};
   RunStatistics statistics_{config_, state_};
   RunResult result_;

@@ -22,7 +22,8 @@ std::string path_of(const Corpus& corpus, const RunRecord& record, const std::st
   return corpus.folder() + "/runs/" + record_name(record) + ending;
 }
 
-// The holder of a lock removes its file at the end: a lock on a file that is no longer there is worth nothing.
+// Returns true if the locked file still exists at this path. The holder of a lock removes its file at the end, and a
+// lock on a removed file protects nothing.
 bool is_still_there(int file, const std::string& path) {
   struct stat held {
   }, present{};
@@ -33,8 +34,8 @@ bool is_still_there(int file, const std::string& path) {
 
 namespace {
 
-// The folder may be named in another way than when the run was stopped, or be another copy: what counts is which lead
-// of this corpus it is.
+// Replaces the folder of each lead by this corpus: the folder may have another name than when the run was stopped, or
+// be a copy.
 Result<Done> take_paths_here(const Corpus& corpus, std::vector<std::string>& leads) {
   for (std::size_t i = 0; i < leads.size(); ++i) {
     const fs::path lead(leads[i]), run = lead.parent_path().filename();
@@ -46,7 +47,7 @@ Result<Done> take_paths_here(const Corpus& corpus, std::vector<std::string>& lea
   return Done{};
 }
 
-// Names in it are of this run and of this corpus.
+// Checks that the names in the state belong to this run and this corpus.
 Result<Done> check_names(const Corpus& corpus, const RunRecord& record, RunState& state) {
   if (record_name(state.record) != record_name(record))
     return Issue{"state.other_run", "/record/name", "found the run " + record_name(state.record)};
@@ -93,7 +94,7 @@ Result<RunLock> RunLock::take(const Corpus& corpus, const RunRecord& record) {
     if (file < 0) return Issue{"file.unwritable", "", path + " cannot be written, or is a link"};
     RunLock lock(file, path);
     if (::flock(file, LOCK_EX | LOCK_NB) != 0) {
-      lock.path_.clear();  // it is another's
+      lock.path_.clear();  // the file belongs to another process
       return Issue{"run.busy", "",
                    "another process is doing the run " + record_name(record) + " in " + corpus.folder()};
     }

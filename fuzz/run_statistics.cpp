@@ -13,7 +13,7 @@ std::string RunStatistics::strategy_of_case(const Lineage& lineage) const {
 
 namespace {
 
-// A case is the same or moved only if no family changed.
+// A case counts as same or moved only if no family changed.
 void add_case(const Comparison& comparison, std::int64_t index, AgainstCounts& counts) {
   if (!comparison.refusal.empty()) {
     if (counts.refused++ == 0) counts.first_refused = index, counts.first_refusal = comparison.refusal;
@@ -45,7 +45,7 @@ void RunStatistics::count(const EvaluateReport& report, std::int64_t index, bool
   add_uses(report.waivers, state_.waivers);
 }
 
-// The cases of one epoch of an island are a group. Cases come in order, so that the first one begins it.
+// The cases of one epoch of an island are a group. Cases come in order, so the first one begins the group.
 void RunStatistics::count_group(std::int64_t index, const std::vector<Family>& counted) {
   std::vector<Family>& shown = state_.groups[static_cast<std::size_t>(island_of(index))].shown;
   if (index == setting_of(index)) shown.clear(), ++state_.record.groups;
@@ -57,7 +57,7 @@ void RunStatistics::count_group(std::int64_t index, const std::vector<Family>& c
   }
 }
 
-// Whether this failure is to be settled. It is counted in any case.
+// Counts this failure, and returns true if it is to be processed.
 bool RunStatistics::wants(const Family& family, std::size_t rank, std::int64_t index, const std::string& strategy_name) {
   std::map<Family, FamilyCount>& families = state_.record.families;
   FamilyCount& count = families.try_emplace(family, FamilyCount{0, index, {}, strategy_name}).first->second;

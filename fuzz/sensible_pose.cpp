@@ -26,7 +26,7 @@ double rest_value(const Character& character, const Joint& joint) {
   return joint.kind == JointKind::prismatic ? q : q * kDegPerRad;
 }
 
-// A share of the way from rest to a value, on the lattice of specs.
+// A point between rest and a value, rounded to the lattice of specs.
 ParamValue part_of_way(const Character& character, const Joint& joint, const ParamValue& value, double share) {
   const double steps = joint.kind == JointKind::prismatic ? 100.0 : 1.0;
   const auto between = [&](double rest, double end) { return on_lattice(rest + share * (end - rest), steps); };

@@ -26,8 +26,8 @@ Result<Shard> checked(int index, int count, const std::string& said) {
   return Shard{index, count};
 }
 
-// A scheduler's variables. `first` and `step` name the number of its first shard and how far it is to the next, or are
-// these numbers themselves.
+// The variables of a scheduler. `first` is the number of its first shard, and `step` the difference between two shards;
+// both are numbers or names of variables.
 struct Scheduler {
   const char* index;
   const char* count;

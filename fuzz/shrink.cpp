@@ -14,10 +14,11 @@ namespace contort {
 
 namespace {
 
-constexpr int kShortFrames = 240;  // whatever explaining and climbing try may be as long
+// Most frames of the motions that the searches for free fields and for the deepest failure may try.
+constexpr int kShortFrames = 240;
 
-// Every change makes the spec smaller (fewer units, else fewer fields that are not at their defaults, else nearer to
-// them), so this ends; and at its end no stage had anything left to do, so that shrinking again changes nothing.
+// This terminates: every change makes the spec smaller (fewer units, else fewer fields that are not at their defaults,
+// else values nearer to them). At the end no stage can change anything, so shrinking again changes nothing.
 void make_minimal(ShrinkState& state) {
   while (!state.halted()) {
     const Spec before = state.spec();
@@ -28,7 +29,7 @@ void make_minimal(ShrinkState& state) {
   }
 }
 
-// The case was minimal before: who made it so stays on record.
+// True if the case was already minimal; its provenance is then kept.
 bool is_as_it_was(const Case& original, const Case& minimal) {
   const Provenance& from = original.provenance;
   return !from.shrunk_from.empty() && from.shrink_stopped == "fixpoint" && minimal.spec == original.spec;
@@ -43,11 +44,12 @@ Provenance provenance_of(const Case& original, const ShrinkState& state, const s
   }
   from.shrink_evaluations = state.evaluations();
   from.shrink_stopped = stopped;
-  from.base.clear(), from.base_shows.clear(), from.base_margin = 0.0;  // of the spec before; a run says it of this one
+  // These describe the unshrunk spec; the run sets them again.
+  from.base.clear(), from.base_shows.clear(), from.base_margin = 0.0;
   return from;
 }
 
-// Finds what there is to say of a minimal spec: with what it comes, which fields do not matter, how deep it can be.
+// Completes a minimal spec: its precursor, its free fields and its worst case.
 void look_closer(Shrunk& shrunk, ShrinkState& state, const std::vector<Case>& others, const ShrinkConfig& config) {
   for (const Case& other : others) state.meet(other);
   const Case* precursor = precursor_of(shrunk.minimal, others, config.search.value_or(PrimarySearch{}).left);
@@ -99,7 +101,7 @@ Shrunk shrink(const Case& original, Generator& generator, const ShrinkConfig& co
   }
   const auto work = [&](const Spec& spec) {
     if (config.before_run) config.before_run(spec);
-    (void)Evaluator(generator, config.checks).run(spec);  // how that ends is what is asked
+    (void)Evaluator(generator, config.checks).run(spec);  // only the ending of the process matters
   };
   EndingTrial trial(original.expect, work, isolation_of(original.expect, config.isolation));
   return shrink_against(trial, original, generator, config);

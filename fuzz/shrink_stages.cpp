@@ -17,14 +17,14 @@ namespace {
 
 bool is_needless(const ClipDesc& clip) { return clip.actions.empty() && clip.name.empty(); }
 
-// Without clips and sequences that have nothing in them, and no name that something may wait for.
+// Returns the spec without empty clips and sequences, unless a name of theirs may be needed by an interrupt.
 Spec pruned(Spec spec) {
   for (std::size_t s = 0; s < sequence_count(spec); ++s) std::erase_if(sequence_at(spec, s).clips, is_needless);
   std::erase_if(spec.sequences, [](const SequenceDesc& s) { return s.clips.empty() && s.name.empty(); });
   return spec;
 }
 
-// Or with them: a clip with nothing in it may be there for its time.
+// Tries without empty clips first, then with them: an empty clip may be needed as a pause.
 bool accept_pruned(ShrinkState& state, Spec candidate) {
   return state.accept(pruned(candidate)) || state.accept(std::move(candidate));
 }
@@ -125,7 +125,7 @@ void reset_fields(ShrinkState& state) {
 
 namespace {
 
-// One number, counted in steps of its lattice from its default.
+// Lowers one number, counted in steps of its lattice from its default.
 class Lowering {
  public:
   Lowering(ShrinkState& state, const SpecField& place) : state_(state), place_(place) {
@@ -133,7 +133,7 @@ class Lowering {
     if (steps < kMostSteps) now_ = static_cast<std::int64_t>(steps);
   }
 
-  // First over values of two digits; one of three stays only if none of two will do.
+  // Tries values of two digits first; more digits stay only if no value of two digits fails.
   void run() {
     std::int64_t grain = 1;
     while (100 * grain <= now_) grain *= 10;
@@ -142,7 +142,7 @@ class Lowering {
   }
 
  private:
-  static constexpr double kMostSteps = 1e12;  // beyond, a step is lost in the number's last digits
+  static constexpr double kMostSteps = 1e12;  // above this, a step is lost in the rounding of a double
 
   bool set_to(std::int64_t steps) {
     const double way = static_cast<double>(steps) / place_.steps_per_unit;
@@ -152,7 +152,8 @@ class Lowering {
     return state_.accept(std::move(candidate));
   }
 
-  // A value that does not hold one step nearer is taken not to hold nearer still: the default itself was tried before.
+  // Bisects. It assumes that if a value one step nearer to the default does not fail, values still nearer do not fail
+  // either; the default itself was tried before.
   void lower(std::int64_t grain) {
     const std::int64_t below = (now_ - 1) / grain * grain;
     if (below <= 0 || !set_to(below)) return;
@@ -177,7 +178,7 @@ void lower_numbers(ShrinkState& state) {
 
 namespace {
 
-constexpr std::size_t kMostForAllPairs = 8;  // 28 pairs; of more, only neighbours
+constexpr std::size_t kMostForAllPairs = 8;  // 28 pairs; with more elements, only neighbours are paired
 
 bool reset_two_fields(ShrinkState& state) {
   const std::vector<SpecField> places = state.spec_fields(state.spec());
@@ -206,7 +207,7 @@ bool remove_two_units(ShrinkState& state) {
   return false;
 }
 
-// Clips that run at the same speed, without being stretched, as one: what starts later starts later in it.
+// Merges clips of equal speed into one; start times keep their order. Stretched clips are left alone.
 bool merge_clips(ShrinkState& state) {
   for (std::size_t s = 0; s < sequence_count(state.spec()); ++s)
     for (std::size_t c = 1; c < sequence_at(state.spec(), s).clips.size(); ++c) {
@@ -225,7 +226,7 @@ bool merge_clips(ShrinkState& state) {
   return false;
 }
 
-// Sequences as one that plays both at once.
+// Merges two sequences into one that plays both at once.
 bool merge_sequences(ShrinkState& state) {
   for (std::size_t s = 1; s < state.spec().sequences.size(); ++s) {
     Spec candidate = state.spec();

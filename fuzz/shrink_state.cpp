@@ -11,7 +11,7 @@ namespace {
 
 double share_of(double depth, double floor) { return std::isinf(depth) ? depth : floor * depth; }
 
-// A share of what it was before any shrinking, so that shrinking again does not go on from half to a quarter.
+// A fraction of the depth before any shrinking, so that shrinking again does not go from a half to a quarter.
 double least_depth_of(const Case& stored, double depth, double floor) {
   const Provenance& from = stored.provenance;
   const double whole = from.shrunk_from.empty() || from.original_depth <= 0.0 ? depth : from.original_depth;
@@ -66,14 +66,14 @@ bool ShrinkState::confirm() {
 }
 
 bool ShrinkState::accept(Spec candidate) {
-  if (halted() || candidate == best_.spec) return false;  // not even printed, which takes as long as trying
+  if (halted() || candidate == best_.spec) return false;  // compares before printing, which takes as long as a trial
   const std::string text = print_spec(candidate);
   if (tried_.contains(text) || !allows(candidate)) return false;
   std::optional<TrialResult> shown = run(candidate);
   if (!shown || !shown->built) return false;
   tried_[text] = shown->fails ? shown->depth : -1.0;
   if (!shown->fails || shown->depth < least_depth_) return false;
-  if (std::isinf(shown->depth) && !std::isinf(least_depth_)) return false;  // no number is another fault
+  if (std::isinf(shown->depth) && !std::isinf(least_depth_)) return false;  // NaN is another fault
   best_.spec = std::move(candidate);
   best_.expect = shown->expect;
   shown_ = std::move(*shown);
@@ -91,7 +91,7 @@ bool ShrinkState::fails(const Spec& candidate) {
 }
 
 std::vector<Case> ShrinkState::others() {
-  if (is_abnormal_exit(best_.expect)) return {};  // there is no motion, and one that hangs would hang once more
+  if (is_abnormal_exit(best_.expect)) return {};  // there is no motion, and a case that hangs would hang again
   trial_.run(best_.spec, most_frames_);
   return trial_.others(best_.spec);
 }

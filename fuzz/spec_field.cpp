@@ -13,17 +13,17 @@ namespace {
 
 using json_fields::Rule;
 
-// A place of one spec in memory. The closures hold references into it.
+// A field of one spec in memory. The closures hold references into it.
 struct Leaf {
   SpecField place;
   bool is_default = false;
-  std::function<void()> reset;  // empty for a parameter's part, whose default is the action's to say
+  std::function<void()> reset;  // empty for components of a parameter, whose default depends on the action
   std::function<void(double)> set_number;
   std::function<void(const std::string&)> set_word;
 };
 using Leaves = std::vector<Leaf>;
 
-// Frames, masses and impulses: what has no natural upper end.
+// Returns true for frames, masses and impulses, which have no natural upper end.
 bool is_open_ended(const std::string& name) {
   return name.ends_with("frames") || name.ends_with("frame") || name.ends_with("_kg") || name == "impulse_N_s";
 }
@@ -52,7 +52,7 @@ void add_number(Leaves& out, const std::string& pointer, const std::string& name
                  {}});
 }
 
-// Anything else that has a default: a flag, a name, a kind of ground.
+// Adds any other field that has a default: a flag, a name, a kind of ground.
 template <class T>
 void add_other(Leaves& out, const std::string& pointer, T& at, const T& preset) {
   SpecField place;
@@ -60,7 +60,7 @@ void add_other(Leaves& out, const std::string& pointer, T& at, const T& preset) 
   out.push_back({place, at == preset, [&at, preset] { at = preset; }, {}, {}});
 }
 
-// A character, or none, and what its parts can do.
+// A character, or none, and the actions that its parts offer.
 struct Actor {
   const Character* character = nullptr;
   const Offers* offers = nullptr;
@@ -79,7 +79,7 @@ void add_param(Leaves& out, const std::string& pointer, ActionUse& use, const st
   if (double* number = std::get_if<double>(&value)) {
     const double* preset = std::get_if<double>(&declared.preset);
     add_number(out, pointer, name, *number, preset != nullptr ? *preset : 0.0, limits);
-    out.back().is_default = false;  // it is there, and need not be
+    out.back().is_default = false;  // a parameter that is given can be left out
     if (declared.steps > 0.0) out.back().place.steps_per_unit = declared.steps;
     out.back().reset = [&use, name] { use.params.erase(name); };
   } else if (Vec3* vector = std::get_if<Vec3>(&value)) {
@@ -115,7 +115,8 @@ void add_params(Leaves& out, const std::string& at, ActionUse& use, const Actor&
   }
 }
 
-// A visitor of field lists, beside the three of json_fields.h: collects the places of one struct and those below it.
+// A visitor of field lists, like the three of json_fields.h. It collects the fields of one struct and of all structs
+// inside it.
 template <class S>
 class PlaceWalker {
  public:
@@ -149,7 +150,7 @@ class PlaceWalker {
     }
   }
 
-  // A mode is less than the next one, so it can be moved towards its default by steps; but no range makes sense of it.
+  // Modes are ordered, so a mode can be moved towards its default in steps; but it has no range of other values.
   template <class E>
   void add_enum(const std::string& at, E& value, E preset) {
     SpecField place{at, true, static_cast<double>(value), static_cast<double>(preset), 0.0, 0.0, 1.0, {}};
@@ -161,7 +162,7 @@ class PlaceWalker {
                     {}});
   }
 
-  // Inner fields come before the whole: resetting the whole ends what is inside.
+  // Inner fields come before the whole field, because resetting the whole removes the inner fields.
   template <class T>
   void descend(const std::string& at, T& value, const T&) {
     PlaceWalker<T>(value, at, actor_, out_);
@@ -180,8 +181,8 @@ class PlaceWalker {
     PlaceWalker<ConditionDesc>(condition, at, actor_, out_);
     add_other(out_, at, condition, preset);
   }
-  void descend(const std::string&, ColliderShape&, const ColliderShape&) {}      // an obstacle is removed whole
-  void descend(const std::string&, CharacterChoice&, const CharacterChoice&) {}  // so are swaps and attachments
+  void descend(const std::string&, ColliderShape&, const ColliderShape&) {}  // obstacles are only removed as a whole
+  void descend(const std::string&, CharacterChoice&, const CharacterChoice&) {}  // as are swaps and attachments
   template <class T>
   void descend(const std::string&, std::map<std::string, T>&, const std::map<std::string, T>&) {}
 

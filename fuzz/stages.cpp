@@ -12,9 +12,9 @@ namespace {
 
 enum StageStream : std::uint64_t { kChoose = 0x73746167ULL, kArrange, kCornerDice };
 
-constexpr int kThrowsForCrowd = 24;  // singles that are looked at for a crowd
+constexpr int kThrowsForCrowd = 24;  // number of tries to choose singles for a crowd
 
-// The first rounds of an epoch make singles that its later rounds combine.
+// The first rounds of an epoch make singles, which its later rounds combine.
 constexpr std::array<CaseStage, kEpochRounds> kStages = {CaseStage::single, CaseStage::single, CaseStage::pair,
                                                          CaseStage::crowd,  CaseStage::single, CaseStage::pair,
                                                          CaseStage::pair,   CaseStage::crowd};
@@ -36,7 +36,7 @@ RawAction action_of(std::int64_t seed, std::int64_t index) {
   return raw.sequences.front().front().actions.front();
 }
 
-// A clip that is played as it is: at its own speed and not stretched.
+// A clip at its own speed, not stretched.
 RawClip plain_clip(int start, std::vector<RawAction> actions) { return {start, 0, kLattice, std::move(actions)}; }
 
 RawInterrupt drawn_interrupt(Dice& dice, const RawAction& action) {
@@ -45,8 +45,8 @@ RawInterrupt drawn_interrupt(Dice& dice, const RawAction& action) {
   return interrupt;
 }
 
-// Puts an action where the dice say: into the last clip (three of six ways), in a clip behind it, in a sequence behind
-// that, or, the last of the ways, in an interrupt.
+// Places an action at random: into the last clip (three of six ways), in a clip behind it, in a sequence behind that,
+// or (the last way) in an interrupt.
 constexpr int kWays = 6;
 
 void add_action(RawSpec& raw, Dice& dice, RawAction action, int ways) {

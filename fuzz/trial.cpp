@@ -62,14 +62,14 @@ GuardedTrial::GuardedTrial(Trial& inner, const Isolation& isolation, bool is_own
   isolation_.silent = true;
 }
 
-// If no process can be had, the spec is run in this one as ever.
+// If no process can be started, the spec runs in this one.
 std::optional<Case> GuardedTrial::ended(const Spec& spec, const std::function<void()>& work) const {
   const Result<Ending> ending = isolate([&] { return work(), std::string(); }, isolation_);
   if (!ending || ending->kind == Ending::Kind::finished) return std::nullopt;
   return ending_case(spec, *ending, isolation_);
 }
 
-// The program goes on from one candidate to the next: in another process of ours each would start a program anew.
+// Runs candidates in this process, because each process of our own would have to start the program again.
 TrialResult GuardedTrial::run_here(const Spec& spec, int most_frames) {
   try {
     return inner_.run(spec, most_frames);
@@ -103,7 +103,7 @@ std::vector<Case> GuardedTrial::others(const Spec& spec) {
 
 EndingTrial::EndingTrial(const Expectation& family, std::function<void(const Spec&)> work, const Isolation& isolation)
     : check_(family.check), subject_(family.subject), work_(std::move(work)), isolation_(isolation) {
-  isolation_.silent = true;  // hundreds of times the same last words
+  isolation_.silent = true;  // the same last output would be printed hundreds of times
 }
 
 TrialResult EndingTrial::run(const Spec& spec, int) {

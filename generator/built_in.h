@@ -1,4 +1,4 @@
-// The built-in generator behind the interface that everything else knows.
+// The built-in generator behind the interface that all other code uses.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ class BuiltInGenerator final : public Generator {
   Result<Done> build(const Spec& spec);
 
   Manifest manifest_;
-  std::map<std::uint64_t, Offers> offers_;  // by the character's hash
+  std::map<std::uint64_t, Offers> offers_;  // by hash of the character
   Spec spec_;                               // the spec from which stage_ was built
   Result<Stage> stage_ = Issue{};
   GenerateScratch scratch_;

@@ -1,4 +1,4 @@
-// Decides whether the condition of an interrupt holds in a frame. Frames, clips and sequences are the queue's own
+// Decides whether the condition of an interrupt holds in a frame. The queue itself handles frames, clips and sequences
 // (timeline/queue.h).
 #pragma once
 

@@ -6,10 +6,10 @@
 
 namespace contort {
 
-// Cannot fail, as generate() cannot. Overwrites `execution` and reuses its memory.
+// Cannot fail, like generate(). Overwrites `execution` and reuses its memory.
 void execute(const Stage& stage, GenerateScratch& scratch, Execution& execution);
 
-// The intent alone.
+// Returns only the intent.
 Intent intent_of(const Stage& stage);
 
 }  // namespace contort

@@ -15,11 +15,11 @@ class FurtherActions {
  public:
   void begin(const Stage& stage);
 
-  // The frame from which each of them is in force, as Playback takes it.
+  // The frame from which each of them is in force, in the form of Playback.
   std::span<const int> acquired() const { return acquired_; }
 
   // Call it after each frame. If a part's aim misses its target, or reaches it only with a twist, the next further
-  // action starts for it. `root` is shown.
+  // action starts for it. `root` is the shown root.
   void ask(const Playback& playback, std::size_t part, std::span<const LayerStack> stacks, RuleRunner& rules,
            const Rigid& root);
 

@@ -23,7 +23,7 @@ class GraspRecorder {
     grasps_[at(entry)].last_frame = frame;
   }
 
-  // The object that the part held in the frame before, even if no action holds it any more.
+  // The object that the part held in the previous frame, even if no action holds it any more.
   HeldObject held_before(int frame, std::size_t part) const {
     const int entry = grasp_of_[part];
     return entry >= 0 && grasps_[at(entry)].last_frame == frame - 1 ? held_at(entry) : HeldObject{};

@@ -1,4 +1,4 @@
-// The built-in generator says what it meant.
+// Makes the intent of the built-in generator.
 #pragma once
 
 #include <span>
@@ -10,9 +10,9 @@
 
 namespace contort {
 
-// The intent of a motion that was generated from this stage, into memory that is used again. Lags say where parts were
-// not where they were wanted: no goal is in force in these frames, and an action that ends in one of them did not meet
-// its request.
+// Writes the intent of a motion that was generated from this stage, into reused memory. Lags are the frames in which
+// parts were not at their wanted places: no goal is in force in these frames, and an action that ends in one of them
+// did not meet its request.
 void say_intent(const Stage& stage, const Motion& motion, const RuleRunner& rules, std::span<const Lag> lags,
                 Intent& intent);
 

@@ -7,12 +7,12 @@
 
 namespace contort {
 
-// Follows the queue until the level is over. If the whole spec is played, no level ever begins.
+// Follows the queue until the level is over. If the whole spec is played, no level begins.
 class LevelPlay {
  public:
   void begin(const Level& level);
 
-  // Once for each frame, after the queue.
+  // Call it once for each frame, after the queue.
   void advance(int frame, std::span<const QueueSpan> history);
 
   bool has_begun() const { return first_frame_ >= 0; }

@@ -14,11 +14,11 @@ class LimbKeeper {
  public:
   LimbKeeper(const Stage& stage, GenerateScratch& scratch) : stage_(stage), s_(scratch) {}
 
-  // Finds the posture in which a leg of this part has its foot where it rests, if a trunk carries it, and nothing has
-  // changed its base since. What carries the part is placed.
+  // Finds the posture in which a leg of this part has its foot at rest, if a trunk carries it and its base has not
+  // changed since. The part's carriers are placed.
   void rest(std::size_t p);
 
-  // Whether nothing moves this part of a leg but the trunk that carries it, over a foot that stands.
+  // Returns true if only the trunk that carries it moves this part of a leg, over a foot that stands.
   bool stays_planted(std::size_t p) const;
 
   void finish(const Playback& playback, const Limb& limb);
@@ -64,8 +64,8 @@ class LimbKeeper {
 
   const Stage& stage_;
   GenerateScratch& s_;
-  std::array<Rigid, kMaxLegs> home_;  // of the soles of a limb that lands
-  std::array<bool, kMaxLegs> is_raised_{};  // the home lay in the ground
+  std::array<Rigid, kMaxLegs> home_;  // places of the soles of a limb that lands
+  std::array<bool, kMaxLegs> is_raised_{};  // true if the home was in the ground
 };
 
 }  // namespace contort

@@ -10,9 +10,10 @@
 
 namespace contort {
 
-// A view of a timeline and of its queue's history, as they are in one frame; both must outlive it. A run is an entry of
-// the history. Its content is the frame of its own sequence, which goes on from where an interrupt cut it.
-// Actions that a level leaves out do not move their parts. `acquired` has, for each of the timeline's further actions, the frame from which it is in force; kDormant: never.
+// A view of a timeline and of its queue's history in one frame; both must outlive it. A run is an entry of the history.
+// Its content is the frame of its own sequence, which continues from where an interrupt cut it. Actions that a level
+// leaves out do not move their parts. `acquired` has, for each of the timeline's further actions, the frame from which
+// it is in force; kDormant: never.
 class Playback {
  public:
   static constexpr int kDormant = 1 << 30;
@@ -26,7 +27,7 @@ class Playback {
   const PlannedAction& action(int index) const { return timeline_.actions[at(index)]; }
   const QueueSpan& run(int index) const { return history_[at(index)]; }
 
-  // Returns a run as actions see it: the frames that a level leaves out count as cut.
+  // Returns a run in the form for actions: frames that a level leaves out count as cut.
   QueueSpan run_of(const PlannedAction& action, int index) const {
     QueueSpan run = history_[at(index)];
     if (level_.is_left_out(action, frame_)) run.last_frame = std::min(run.last_frame, level_.first_frame());
@@ -36,7 +37,7 @@ class Playback {
   static int content(const QueueSpan& run, int frame) { return run.first_content + frame - run.first_frame; }
   int content(const QueueSpan& run) const { return content(run, frame_); }
 
-  // The content frame at which an action takes its part in a run: its start, or where the sequence went on or the
+  // The content frame at which an action takes its part in a run: its start, or where the sequence continued or the
   // action was acquired.
   double comes(const PlannedAction& action, const QueueSpan& run) const {
     const double begins = std::max(action.start, static_cast<double>(run.first_content));

@@ -1,5 +1,5 @@
-// Notes, after each frame, where a part is not where its action wants it, and why; and in which frames an aim is fully
-// in force.
+// Records after each frame which parts are not at their wanted places, with the reason, and in which frames an aim is
+// fully in force.
 #pragma once
 
 #include <optional>

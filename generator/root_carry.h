@@ -1,4 +1,4 @@
-// The place to which legs have carried the character, and where they have put its feet.
+// The place to which legs have carried the character, and the places of its feet.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@ namespace contort {
 // pull the character back.
 class RootCarry {
  public:
-  // Begins at the stage's start and stands `posture`, which is at rest, up there: on uneven ground hips and feet fit
-  // themselves to what is beneath. `world` is scratch, with an entry for each joint.
+  // Begins at the stage's start and places `posture`, which is at rest, there: on uneven ground hips and feet adapt to
+  // the ground. `world` is scratch, with an entry for each joint.
   void begin(const Stage& stage, std::span<Rigid> world, Posture& posture);
 
   // Legs have moved the character in this frame.
@@ -22,14 +22,14 @@ class RootCarry {
   // The base's root is where the character stands now.
   void settle() { base_stands_at_ = stands_at_; }
 
-  // Brings a root of the base from where it was made to where the character stands.
+  // Moves a root of the base from the place where it was made to the character's present place.
   void bring_along(Rigid& base_root);
 
   // A turn about +Y and a place on the plane y = 0.
   const Rigid& stands_at() const { return stands_at_; }
-  const std::array<Rigid, kMaxLegs>& soles() const { return soles_; }  // where legs have put them
+  const std::array<Rigid, kMaxLegs>& soles() const { return soles_; }  // where legs have placed them
 
-  // The soles in a posture: where legs have put them, or elsewhere, where another action has moved a leg.
+  // The soles in a posture: where legs have placed them, or elsewhere if another action has moved a leg.
   std::array<Rigid, kMaxLegs> soles_in(std::span<const Rigid> world) const;
   LegsBelow below() const { return {*stage_->character, stage_->legs, stage_->environment}; }
 

@@ -15,30 +15,31 @@ struct RuleCall {
   int content = 0;     // frame of its sequence
   double came = 0.0;   // the content frame at which it took its part
   int took_over = 0;   // the frame of the motion
-  double came_in = 1.0;  // how far it has come in, [0, 1]
+  double came_in = 1.0;  // how far it has blended in, [0, 1]
 };
 
-// Parts are run carriers first: rules read the world transforms of what is placed already.
+// Parts are run carriers first, because rules read the world transforms of the parts that are already placed.
 class RuleRunner {
  public:
   void begin(const Stage& stage);
   void start_from(const Posture& posture);  // the posture before frame 0
-  void begin_frame();  // forgets the feedback of the frame before
+  void begin_frame();  // clears the feedback of the previous frame
 
   // The world transforms of a part's own joints in a posture; its carrier must be placed.
   void place(std::size_t part, const Posture& posture);
 
-  // The posture of the part after its rule was applied to the one `beneath` it; `from` is the posture that the action found, and `stands_at`
-  // where legs have carried the character. Only the part's own entries of the answer mean anything, until the next run.
+  // The posture of the part after its rule was applied to the one `beneath` it. `from` is the posture at the action's
+  // start, and `stands_at` the place to which legs have carried the character. Only the part's own entries of the
+  // result are valid, until the next run.
   const Posture& run(const Playback& playback, const RuleCall& call, std::size_t part, const Posture& from,
                      const Posture& beneath, const Rigid& stands_at);
 
-  const Posture& made() const { return target_; }  // by the last run
+  const Posture& made() const { return target_; }  // the result of the last run
   LimbRoom& room() { return room_; }
   StandingFeet& feet() { return feet_; }
   WholeBody& body(const PlannedAction& action) { return bodies_[at(action.use)]; }
   const WholeBody& body(const PlannedAction& action) const { return bodies_[at(action.use)]; }
-  // The parameters of an action as its script computed them last, or as the spec has them.
+  // The last parameters of an action, computed by its script or given by the spec.
   std::span<const double> last_params(const PlannedAction& action) const {
     return computed_[at(action.use)].empty() ? std::span(action.params) : std::span(computed_[at(action.use)]);
   }
@@ -70,7 +71,7 @@ class RuleRunner {
   std::vector<double> scratch_row_;
   ScriptHost scripts_;
   std::vector<double> script_row_;
-  std::vector<std::vector<double>> computed_;  // parameters, by use; empty where nothing computes them
+  std::vector<std::vector<double>> computed_;  // parameters, by use; empty if no script computes them
   Posture target_;
 };
 

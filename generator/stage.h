@@ -1,4 +1,5 @@
-// Stage: what a valid Spec builds. Building is the only step that may refuse; generating from a Stage cannot fail.
+// Stage: the result of building a valid Spec. Building is the only step that may refuse; generating from a Stage cannot
+// fail.
 #pragma once
 
 #include <memory>

@@ -12,7 +12,7 @@ Vec3 vector_of(Axis axis) {
 
 }  // namespace
 
-// In a right-handed system up x forward points to the left; a left-handed one has it on the other side.
+// In a right-handed system up x forward points to the left; in a left-handed one, to the right.
 Basis::Basis(const GuestConvention& convention)
     : up_(vector_of(convention.up)),
       forward_(vector_of(convention.forward)),

@@ -6,16 +6,16 @@
 
 namespace contort {
 
-// Every frame of reference is expressed anew in our axes, those of joints included. So a joint's local rotation R
-// becomes B R B^-1, where the rows of B are our axes in the generator's coordinates. A quaternion keeps its w, and its
-// vector becomes det(B) B v.
+// All frames of reference, also those of joints, are converted to our axes. So a joint's local rotation R becomes B R
+// B^-1, where the rows of B are our axes in the generator's coordinates. A quaternion keeps its w, and its vector
+// becomes det(B) B v.
 class Basis {
  public:
   explicit Basis(const GuestConvention& convention);
 
   Vec3 direction(const Vec3& theirs) const;
   Vec3 point_m(const Vec3& theirs) const { return unit_m_ * direction(theirs); }
-  // An axis of rotation keeps the sense of its angle: in a left-handed system it is the opposite one.
+  // Converts an axis of rotation. Positive angles stay positive, so in a left-handed system the axis is reversed.
   Vec3 axis(const Vec3& theirs) const { return handedness_ * direction(theirs); }
   Quat rotation(double x, double y, double z, double w) const;
   double unit_m() const { return unit_m_; }

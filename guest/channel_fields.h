@@ -10,7 +10,7 @@
 
 namespace contort {
 
-// All channels that are declared must be there, with a value of their type for each frame. Code guest.bad_channel.
+// Expects all declared channels, with a value of their type for each frame. Code guest.bad_channel.
 Result<ChannelFacts> read_channels(const json_fields::Json& reply, std::span<const GuestChannel> declared, int frames);
 
 }  // namespace contort

@@ -8,7 +8,7 @@ namespace {
 
 using json_fields::Json;
 
-constexpr std::size_t kLongestValue = 200;  // bytes of a text
+constexpr std::size_t kLongestValue = 200;  // greatest number of bytes of a text
 
 Issue bad_channel(const GuestChannel& channel, const std::string& text) {
   return {"guest.bad_channel", "/channels/" + channel.name, text};
@@ -20,7 +20,7 @@ bool is_value(ChannelType type, const Json& value) {
   return value.is_string() && value.get_ref<const std::string&>().size() <= kLongestValue;
 }
 
-// A value in the frame after a run goes on with it, or begins another one.
+// Adds a value of one frame: it continues the last run, or begins another one.
 void add_value(const std::string& channel, const std::string& value, int frame, std::vector<ChannelRun>& runs) {
   const bool goes_on = !runs.empty() && runs.back().channel == channel && runs.back().value == value &&
                        runs.back().last_frame == frame - 1;

@@ -1,4 +1,4 @@
-// Values that a generator gives for each frame beside the pose.
+// Values that a generator gives for each frame in addition to the pose.
 #pragma once
 
 #include <vector>

@@ -8,7 +8,7 @@ namespace contort {
 
 namespace {
 
-// A use may fade for its whole duration at most.
+// The duration is at least twice the fade, so that a use never fades for its whole duration.
 constexpr std::array<double, 2> kLasts_s{0.6, 1.5};
 constexpr std::array<double, 2> kFades_s{0.1, 0.25};
 
@@ -91,12 +91,12 @@ GuestParam described_param(const ParamDef& def) {
   return out;
 }
 
-// Returns no action if it needs a point of an object and the part carries no object.
+// Returns nothing if the action needs a point of an object and the part carries none.
 std::optional<GuestAction> described_action(const OfferedAction& offered, const std::string& slot) {
   GuestAction out;
   out.name = offered.name, out.help = offered.help, out.layer = offered.layer, out.slots = {slot};
   out.duration_s = kLasts_s;
-  // A goal is approached all the time, and on the base layer there is nothing to fade to.
+  // A goal is approached during the whole action, and the base layer has nothing to fade to, so these get no blend.
   if (offered.timing == Timing::course) out.blend_in_s = kFades_s;
   if (offered.layer != Layer::overwrite) out.blend_out_s = kFades_s;
   for (const ParamDef& def : offered.params) {

@@ -12,9 +12,9 @@ namespace contort {
 // Describes one of our characters with its present parts. Convex hulls and travels are left out.
 GuestCharacter describe(const Character& character);
 
-// The named characters with their default parts. Actions whose parameters differ between parts are there once for each
-// part. What the protocol cannot express is left out: travels become fixed joints, and parameters that may be missing,
-// interrupts, grounds and dynamics do not exist. Codes of build_character.
+// Describes the named characters with their default parts. An action whose parameters differ between parts is listed
+// once for each part. The result has only items that the protocol can express: travels become fixed joints, and
+// optional parameters, interrupts, grounds and dynamics are left out. Codes of build_character.
 Result<GuestManifest> describe(Generator& generator, std::span<const std::string> characters);
 
 }  // namespace contort

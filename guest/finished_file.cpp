@@ -13,9 +13,9 @@ namespace {
 
 constexpr double kLeastRate_hz = 30.0;
 constexpr double kGreatestRate_hz = 240.0;
-constexpr double kSameTime_s = 1e-4;  // keys nearer than this are one: files keep times as 32-bit numbers
+constexpr double kSameTime_s = 1e-4;  // keys nearer than this count as one, because files store times as 32-bit numbers
 constexpr double kMostFrames = 100000.0;
-constexpr std::size_t kMostNames = 8;  // in a message
+constexpr std::size_t kMostNames = 8;  // greatest number of names in a message
 
 double shortest_step_s(const AssetClip& clip) {
   double shortest = std::numeric_limits<double>::infinity();
@@ -34,7 +34,8 @@ double densest_rate_hz(const AssetClip& clip) {
   return densest;
 }
 
-// The step that divides the clip evenly, where the given one nearly does: rounded times would drift over many frames.
+// Returns the step that divides the clip evenly, if it is close to the given one: rounded times would drift over many
+// frames.
 double even_step_s(const AssetClip& clip, double step_s) {
   const double length_s = clip.last_s - clip.first_s, steps = std::round(length_s / step_s);
   const bool is_even = steps >= 1.0 && std::fabs(length_s / step_s - steps) < 0.1;
@@ -71,7 +72,7 @@ Issue nothing_matches(const FinishedFile& file) {
 
 bool is_moved(const AssetChannel& channel) {
   const std::size_t row = row_size(channel.path);
-  const bool is_spline = channel.interpolation == Interpolation::cubic_spline;  // tangents move it, too
+  const bool is_spline = channel.interpolation == Interpolation::cubic_spline;  // tangents move the node too
   for (std::size_t i = row; i < channel.values.size(); ++i)
     if (is_spline || channel.values[i] != channel.values[i % row]) return true;
   return false;

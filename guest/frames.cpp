@@ -12,7 +12,7 @@ namespace {
 
 std::size_t size_of(FrameFormat format) { return format == FrameFormat::f32 ? 4 : 8; }
 
-// Reads one number after another; the machine is little-endian, as the frames are.
+// Reads one number after another. Frames are little-endian, like this machine.
 class Numbers {
  public:
   Numbers(std::string_view bytes, FrameFormat format) : at_(bytes.data()), format_(format) {}
@@ -33,7 +33,7 @@ class Numbers {
   FrameFormat format_;
 };
 
-// A rotation as it came, and its length.
+// A rotation as it was received, and the length of its quaternion.
 struct RawRotation {
   Quat q = kNoRotation;
   double length = 1.0;
@@ -48,10 +48,10 @@ RawRotation next_rotation(Numbers& numbers, const Basis& basis) {
   return raw;
 }
 
-// The turn of `angle` that is nearest to `before`: a hinge may go beyond half a turn.
+// The equivalent of `angle` nearest to `before`: a hinge may go beyond half a turn.
 double unwrapped(double angle, double before) { return before + wrap_angle(angle - before); }
 
-// The angle about the hinge's axis, and how much of the rotation that leaves.
+// The angle about the hinge's axis. The rest of the rotation goes to `off_axis_rad`.
 double hinge_angle(const Joint& joint, const Quat& from_rest, double before, double& off_axis_rad) {
   const double along = glm::dot(Vec3(from_rest.x, from_rest.y, from_rest.z), joint.axis);
   const double angle = 2.0 * det::atan2(along, from_rest.w);
@@ -59,7 +59,7 @@ double hinge_angle(const Joint& joint, const Quat& from_rest, double before, dou
   return unwrapped(angle, before);
 }
 
-// A hinge of the first frame starts in the middle of its range, so that ranges beyond half a turn are met.
+// The angle of the previous frame; in the first frame the middle of the range, so that ranges beyond half a turn work.
 double before_of(const Joint& joint, const Motion& motion, int frame) {
   return frame > 0 ? motion.row(frame - 1)[at(joint.coord)] : 0.5 * (joint.low + joint.high);
 }

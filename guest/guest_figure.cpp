@@ -14,12 +14,12 @@ namespace contort {
 
 namespace {
 
-constexpr std::size_t kLongestName = 40;     // of a joint
-constexpr double kBoneThickness = 0.08;      // radius of a drawn bone, as a share of its length
-constexpr double kFixed_deg = 0.01;          // a range needs two ends
+constexpr std::size_t kLongestName = 40;     // greatest length of a joint's name
+constexpr double kBoneThickness = 0.08;      // radius of a drawn bone, as a fraction of its length
+constexpr double kFixed_deg = 0.01;          // half the range of a fixed joint, because a range needs two ends
 constexpr double kEndless_deg = 1e5;
 constexpr double kShortestBone_m = 1e-4;
-constexpr double kEndRadius_m = 0.01;        // of a joint without children
+constexpr double kEndRadius_m = 0.01;        // radius of the ball that is drawn for a joint without children
 
 std::string legal_name(const std::string& text) {
   std::string out;
@@ -32,12 +32,12 @@ std::string legal_name(const std::string& text) {
   return out.empty() ? "joint" : out.substr(0, kLongestName);
 }
 
-// A joint may be named "slot/joint": the slot is no part of its own name.
+// The joint's name without its slot: a joint may be named "slot/joint".
 std::string own_name(const std::string& name, const std::string& slot) {
   return legal_name(name.starts_with(slot + "/") ? name.substr(slot.size() + 1) : name);
 }
 
-// Names that would be there twice get a number.
+// Adds numbers to repeated names.
 std::vector<std::string> unique_names(const std::vector<std::string>& names) {
   std::vector<std::string> unique;
   std::set<std::string> taken;
@@ -57,7 +57,7 @@ std::vector<std::string> collider_names(const GuestCharacter& character) {
   return unique_names(names);
 }
 
-// A character on its way into the library.
+// The data of a character while it is converted to our library.
 struct GuestFigure {
   const GuestCharacter& from;
   const Basis basis;
@@ -66,11 +66,11 @@ struct GuestFigure {
 
   int parent(std::size_t j) const { return find_joint(from, from.joints[j].parent); }
   bool begins_slot(std::size_t j) const { return j > 0 && slots[at(parent(j))] != slots[j]; }
-  // The joint's name as its part knows it: the root body has none.
+  // The joint's name in its part; "" for the root body.
   std::string local_name(std::size_t j) const { return j == 0 ? "" : names[j]; }
 };
 
-// A hinge that may go all the way round has no ends: its angle is counted on over several turns.
+// A hinge with a range of a full turn or more has no limits; its angle may count several turns.
 void set_range(const GuestJoint& joint, JointDesc& out) {
   const bool is_endless = joint.type == GuestJointType::hinge && joint.high_deg - joint.low_deg >= 360.0;
   const bool is_fixed = joint.type == GuestJointType::fixed || joint.low_deg == joint.high_deg;
@@ -105,7 +105,7 @@ MeshDesc bone_mesh(const std::string& joint, const Vec3& to_m) {
   return {joint, Capsule{Vec3(0.0), to_m, kBoneThickness * long_m}, Vec3(0.7)};
 }
 
-// Bones from each joint of the slot to the joints that it carries, and balls at the ends.
+// Bones from each joint of the slot to its child joints, and balls at the ends.
 std::vector<MeshDesc> bones_of(const GuestFigure& figure, const std::string& slot) {
   std::vector<MeshDesc> mesh;
   for (std::size_t j = 0; j < figure.names.size(); ++j) {
@@ -121,7 +121,7 @@ std::vector<MeshDesc> bones_of(const GuestFigure& figure, const std::string& slo
   return mesh;
 }
 
-// Half of each side along our axes, which are theirs in another order.
+// Half sizes along our axes, which are the generator's in another order.
 Vec3 half_m(const Vec3& half, const Basis& basis) { return glm::abs(basis.point_m(half)); }
 
 ColliderShape shape_of(const GuestCollider& collider, const Basis& basis) {
@@ -143,7 +143,7 @@ std::vector<ColliderDesc> colliders_of(const GuestFigure& figure, const std::str
   return out;
 }
 
-// A socket on each joint: other slots hang on them, and goals speak of them.
+// A socket on each joint. Other slots are attached to them, and goals refer to them.
 std::vector<SocketDesc> sockets_of(const GuestFigure& figure, const std::string& slot) {
   std::vector<SocketDesc> sockets;
   for (std::size_t j = 0; j < figure.names.size(); ++j)
@@ -185,7 +185,7 @@ std::string full_name(const GuestFigure& figure, const std::string& collider) {
 
 void allow_contacts_at_rest(const std::string& name, Library& library) {
   const Result<Character> built = build_character({name, {}, {}}, library);
-  if (!built) return;  // start() tells the fault
+  if (!built) return;  // start() reports the fault
   std::vector<Rigid> world(built->joints().size());
   forward_kinematics(*built, built->rest_root(), built->rest_coords(), world);
   const auto placed = [&](int c) {

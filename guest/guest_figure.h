@@ -23,7 +23,7 @@ std::vector<std::string> joint_names(const GuestCharacter& character);
 // Our joint for each joint of the manifest's character; the root is 0.
 std::vector<int> joints_of(const GuestCharacter& from, const Character& character);
 
-// The joints that the manifest says follow others, by our joints as joints_of gives them.
+// The declared couplings of joints, with our joints as joints_of gives them.
 std::vector<Coupling> couplings_of(const GuestCharacter& from, const std::vector<int>& joints);
 
 // Converts the name of a slot's part to the name in our library, and back: "" if our part is the slot's first.

@@ -15,11 +15,11 @@ namespace contort {
 
 namespace {
 
-constexpr std::size_t kMostFigures = 256;  // whose offers are remembered
+constexpr std::size_t kMostFigures = 256;  // greatest number of figures whose offers are cached
 
 using Models = std::map<std::string, GuestCharacter>;
 
-// Reads a model the first time, and keeps it.
+// Reads each model once and caches it.
 ModelReader keeping(const ModelReader& models, Models& kept) {
   if (!models) return {};
   return [&](const std::string& path) -> Result<GuestCharacter> {
@@ -30,7 +30,8 @@ ModelReader keeping(const ModelReader& models, Models& kept) {
   };
 }
 
-// Later starts of the program name the same models, or it has another manifest.
+// Reads models from the cache only. A later start of the program must name the same models, otherwise its manifest
+// differs.
 ModelReader kept_only(const Models& kept) {
   return [&](const std::string& path) -> Result<GuestCharacter> {
     if (const auto known = kept.find(path); known != kept.end()) return known->second;
@@ -92,7 +93,8 @@ void GuestGenerator::restart() {
   program_.reset();
 }
 
-// The program of this thread: two that speak to one would read each other's answers.
+// The program of this thread. Each thread has its own, because two threads with one program would read each other's
+// answers.
 GuestProgram& GuestGenerator::program() {
   if (owner_ != ::gettid()) restart();
   if (program_ != nullptr && description_->said.determinism != Determinism::history) return *program_;

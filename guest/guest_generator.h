@@ -41,7 +41,7 @@ class GuestGenerator final : public Generator {
   // Throws ProgramEnded if the program ends or breaks the protocol. Code guest.refused if it refuses.
   Result<Done> run(const Spec& spec, Execution& execution) override;
   std::unique_ptr<Generator> another() const override;
-  // Code generator.own_library: the program brings its characters along.
+  // Code generator.own_library: the program has its own characters.
   Result<std::unique_ptr<Generator>> with(const Library& library) const override;
 
   // The frames that the program sends for the spec, for comparisons of whole motions. Code guest.refused.

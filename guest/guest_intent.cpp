@@ -23,7 +23,7 @@ IntendedAction intended(const PlacedUse& placed, const Character& character) {
   return action;
 }
 
-// The tip is at the point in the last frame of the action.
+// The goal that the tip is at the point in the last frame of the action.
 Goal goal_of(const GuestManifest& manifest, const PlacedUse& placed, const Character& character) {
   const Basis basis(manifest.convention);
   const GuestCharacter& from = *find_character(manifest, character.name());
@@ -45,7 +45,7 @@ Goal goal_of(const GuestManifest& manifest, const PlacedUse& placed, const Chara
 
 namespace {
 
-// A goal that another use of its slot takes over before its end is nobody's promise any more.
+// True if another use of the slot takes over before this goal's end; the goal is then not promised any more.
 bool is_taken_over(const PlacedUse& placed, const std::vector<PlacedUse>& uses) {
   return std::ranges::any_of(uses, [&](const PlacedUse& other) {
     return &other != &placed && other.use->slot == placed.use->slot && other.start_frame >= placed.start_frame &&

@@ -14,7 +14,8 @@ Intent intent_of(const GuestManifest& manifest, const std::vector<PlacedUse>& us
 
 std::vector<ActionSpan> spans_of(const Intent& intent, int frames);
 
-// The frames in which joints stand still, by the channels that say so. `joints` are ours, in the order of the manifest.
+// The frames in which joints stand still, according to the channels. `joints` are our joints, in the order of the
+// manifest.
 std::vector<ContactRun> contacts_of(const GuestManifest& manifest, const std::string& character,
                                     std::span<const int> joints, std::span<const ChannelRun> runs);
 

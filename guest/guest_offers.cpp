@@ -9,7 +9,7 @@ namespace contort {
 
 namespace {
 
-constexpr double kLeastSteps = 500.0;  // of a number's range
+constexpr double kLeastSteps = 500.0;  // least number of steps in a number's range
 
 ParamValue value_of(const GuestValue& value) {
   if (const auto* flag = std::get_if<bool>(&value)) return std::string(*flag ? "true" : "false");
@@ -18,7 +18,7 @@ ParamValue value_of(const GuestValue& value) {
   return std::get<double>(value);
 }
 
-// The least power of ten that divides the range into so many steps.
+// The least power of ten that gives at least kLeastSteps steps in the range.
 double steps_for(double range) {
   double steps = 1.0;
   while (range > 0.0 && range * steps < kLeastSteps && steps < 1e9) steps *= 10.0;
@@ -38,7 +38,7 @@ void add_once(std::vector<ParamValue>& values, const ParamValue& value) {
   if (std::ranges::find(values, value) == values.end()) values.push_back(value);
 }
 
-// The values that the manifest names, and those at which programs break in general: the ends, zero, the default.
+// The values that the manifest lists, and values at which programs often fail: the ends, zero, the default.
 std::vector<ParamValue> special_values(const GuestParam& param, const ParamDef& def) {
   std::vector<ParamValue> values;
   for (const GuestValue& value : param.special) add_once(values, value_of(value));

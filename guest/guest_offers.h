@@ -6,10 +6,11 @@
 
 namespace contort {
 
-// For each part of the character the actions that list its slot; those that list none are the root part's.
+// Returns the actions for each part of the character. An action is offered on the slots that it lists; without a list,
+// on the root part.
 Offers offers_of(const GuestManifest& manifest, const Character& character);
 
-// The action as the part of this index offers it.
+// The action as it is offered on the part with this index.
 OfferedAction offer_of(const GuestManifest& manifest, const GuestAction& action, int part = 0);
 
 // Converts a range of seconds to frames.

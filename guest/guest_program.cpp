@@ -11,15 +11,15 @@ namespace {
 using json_fields::Json;
 
 constexpr char kHello[] = R"({"op":"hello","contort":[1]})";
-constexpr std::size_t kMostRefusal = 500;  // bytes of a text
+constexpr std::size_t kMostRefusal = 500;  // greatest number of bytes of a text
 
-// Without a shell in between the program is our child, and ends with us whatever happens.
+// Avoids a shell if possible, because the program is then our child and ends with us.
 std::vector<std::string> shell_command(const std::string& command) {
   const bool needs_shell = command.find_first_of("|&;<>()`\n") != std::string::npos;
   return {"/bin/sh", "-c", needs_shell ? command : "exec env " + command};
 }
 
-// Text that is too long ends before the character of UTF-8 that would be cut.
+// Shortens long text, but never inside a UTF-8 character.
 std::string text_of(const Json& reply, const char* name) {
   const auto found = reply.find(name);
   std::string text = found != reply.end() && found->is_string() ? found->get<std::string>() : "";
@@ -54,7 +54,8 @@ Result<GuestManifest> GuestProgram::manifest_in(const std::string& line, const M
   return manifest;
 }
 
-// A program that connects is greeted a second time, on the connection. Other lines before the manifest are its log.
+// Reads the manifest. If the program connects, it is greeted again over the connection. Other lines before the manifest
+// are its log.
 Result<GuestManifest> GuestProgram::greet(const ModelReader& models) {
   program_.send_line(kHello);
   bool has_connected = false;

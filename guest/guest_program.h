@@ -27,7 +27,7 @@ struct GuestLimits {
 
 // One line of the generator's answer to a request.
 struct GuestAnswer {
-  std::optional<std::string> refusal;  // why the generator refuses the request, in its own words
+  std::optional<std::string> refusal;  // the reason for which the generator refuses the request, in its own words
   std::string bytes;    // the frames
   ChannelFacts channels{};
 };
@@ -46,8 +46,8 @@ class GuestProgram {
   // Exchanges the greeting. Codes generator.ended, generator.silent, generator.bad_token and those of parse_manifest.
   Result<GuestManifest> greet(const ModelReader& models = {});
 
-  // Asks for a motion of this size, with the channels that the manifest declares. Throws ProgramEnded if the program ends, is silent, fails, or answers what the
-  // protocol does not allow. It is over after that.
+  // Requests a motion of this size, with the channels that the manifest declares. Throws ProgramEnded if the program
+  // ends, is silent, fails, or breaks the protocol; the conversation is then over.
   GuestAnswer ask(const std::string& request, std::int64_t id, const AnswerSize& size,
                   std::span<const GuestChannel> channels);
 

@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::size_t kMostRows = 100'000;
 constexpr std::size_t kMostNamesShown = 12;
-constexpr double kEvenShare = 0.02;      // of a step, between the earliest and the latest: clocks are that exact
+constexpr double kEvenShare = 0.02;      // greatest deviation of clocks, as a fraction of a step
 constexpr double kLeastDigits = 4.0;     // digits in a step: with fewer of them, rounding hides how even the steps are
-constexpr double kSinglePose_hz = 30.0;  // of a table of one row
+constexpr double kSinglePose_hz = 30.0;  // rate of a table with one row
 
 struct NamedUnit {
   std::string_view name;
@@ -28,7 +28,7 @@ constexpr NamedUnit kValueUnits[] = {
     {"deg", kRadPerDeg, true}, {"degree", kRadPerDeg, true}, {"degrees", kRadPerDeg, true},
     {"m", 1.0, false},         {"cm", 0.01, false},          {"mm", 0.001, false}};
 
-// A column with the joint that it moves: coordinate = factor * value - at_rest.
+// A column and the joint that it moves: coordinate = factor * value - at_rest.
 struct MovedJoint {
   std::size_t column = 0;
   int joint = 0;
@@ -40,7 +40,7 @@ bool has_one_coordinate(const Joint& joint) {
   return joint.kind == JointKind::hinge || joint.kind == JointKind::prismatic;
 }
 
-// The names that a column may mean, the likeliest first.
+// The joints' names that a column may refer to, the likeliest first.
 std::vector<std::string> meanings_of(std::string_view column) {
   std::vector<std::string> out = {std::string(column)};
   for (const std::string_view ending : {"/position", ".position", "_position", "/pos", ".pos", "_pos"})
@@ -60,7 +60,7 @@ std::string names_text(const std::vector<std::string>& names) {
   return text.empty() ? "none" : text;
 }
 
-// Rows whose times are as a rate would have them, rounded to the digits that were written.
+// Returns true if the rows are evenly spaced in time, up to the rounding of the written digits.
 bool stand_evenly(const JointTable& table) {
   const std::vector<double>& t = table.times_s;
   if (t.size() < 2) return true;
@@ -96,8 +96,8 @@ class ValuesReader {
   }
 
  private:
-  // The joint of the file or of the character that the column means, with the file's value at rest; nothing if there
-  // is none.
+  // The joint of the file or of the character that the column names, with the file's value at rest; nothing if there is
+  // none.
   std::optional<FileJoint> joint_meant(const std::string& column) const {
     for (const std::string& name : meanings_of(column)) {
       if (const auto found = in_.file_joints.find(name); found != in_.file_joints.end()) return found->second;
@@ -162,7 +162,7 @@ class ValuesReader {
       motion.coords.insert(motion.coords.end(), character_.rest_coords().begin(), character_.rest_coords().end());
   }
 
-  // Columns that are neither of a joint nor of the root mean nothing here.
+  // Reads the root's columns. All other columns without a joint are listed as strange.
   Result<Done> place_root() {
     const Result<std::optional<RootColumns>> root = find_root_columns(in_.table, free_);
     if (!root) return root.issue();
@@ -187,7 +187,7 @@ class ValuesReader {
 
   bool has_column(int joint) const { return std::ranges::find(moved_, joint, &MovedJoint::joint) != moved_.end(); }
 
-  // How a joint follows another one, in coordinates of the character; nothing if one of them does not move there.
+  // The coupling of two joints, in coordinates of the character; nothing if one of them is fixed there.
   std::optional<Coupling> coupling_of(const FileJoint& own) const {
     const auto leader = in_.file_joints.find(own.follows);
     if (own.follows.empty() || leader == in_.file_joints.end()) return std::nullopt;
@@ -199,7 +199,8 @@ class ValuesReader {
                     own.multiplier * leader->second.at_rest + own.offset - own.at_rest};
   }
 
-  // Joints may follow joints that follow others: those with known leaders come first, until no joint is left.
+  // Computes the joints that follow others, or checks them if they have a column. A leader may follow another joint, so
+  // this repeats until no further joint has a known leader.
   void follow() {
     std::vector<Coupling> open;
     for (const auto& [name, joint] : in_.file_joints)
@@ -240,7 +241,7 @@ class ValuesReader {
   const JointValues& in_;
   const Character& character_;
   std::vector<MovedJoint> moved_;
-  std::vector<std::size_t> free_;  // columns that name no joint
+  std::vector<std::size_t> free_;  // columns without a joint
   ValuesMotion out_;
 };
 

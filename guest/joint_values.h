@@ -16,17 +16,17 @@ struct JointValues {
   const JointTable& table;
   std::shared_ptr<const Character> character;
   const FileJoints& file_joints;  // joints of the file that the character was made from; empty if they are unknown
-  bool in_degrees = false;        // the unit of angles in columns whose names do not say it
+  bool in_degrees = false;        // unit of angles in columns whose names give no unit
   bool is_y_up = false;           // the root's axes: +Y up and +Z forward, else +Z up and +X forward, as robots have
   Quat file_root{1.0, 0.0, 0.0, 0.0};  // rotation at rest of the root's body in the file of the character
 };
 
 struct ValuesMotion {
   Execution execution;
-  int columns = 0;                             // columns that joints follow
-  std::vector<std::string> root_columns{};     // columns that say where the root is; seven or none
+  int columns = 0;                             // number of columns that move a joint
+  std::vector<std::string> root_columns{};     // columns with the root's pose; seven or none
   std::vector<std::string> strange_columns{};  // columns that name no joint
-  std::vector<std::string> fixed_columns{};    // columns that name a joint which does not move in the character
+  std::vector<std::string> fixed_columns{};    // columns that name a joint which is fixed in the character
   std::vector<std::string> computed{};         // joints without a column that follow another joint
   std::vector<std::string> joints_at_rest{};   // all other joints without a column
 };

@@ -218,7 +218,7 @@ namespace {
 
 using json_fields::Json;
 
-// The names of the joints that a character asks for, "" for entries that are none; the strict reader tells those.
+// The names of the joints that a character lists; "" for invalid entries, which the strict reader reports.
 std::vector<std::string> names_in(const Json& joints) {
   std::vector<std::string> names;
   for (const Json& joint : joints) {
@@ -235,7 +235,7 @@ Json listed(const std::vector<T>& items) {
   return list;
 }
 
-// What the manifest says itself is kept.
+// Adds the model's data to the character. Fields that the manifest gives itself stay.
 void fill_character(const GuestCharacter& model, Json& character) {
   Json joints = listed(model.joints);
   if (const auto own = character.find("joints"); own != character.end())

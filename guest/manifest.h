@@ -30,13 +30,13 @@ struct GuestConvention {
   bool operator==(const GuestConvention&) const = default;
 };
 
-// A single number stands for all components.
+// A single number applies to all components.
 using NumberOrTwo = std::variant<double, std::array<double, 2>>;
 using NumberOrThree = std::variant<double, Vec3>;
 
 enum class GuestJointType { ball, hinge, fixed };
 
-// How a hinge follows another one: its angle from rest is multiplier * the leader's angle from rest + offset.
+// The coupling of a hinge to another one: its angle from rest is multiplier * the leader's angle from rest + offset.
 struct GuestFollow {
   std::string joint{};  // the leader
   double multiplier = 1.0;
@@ -58,7 +58,7 @@ struct GuestJoint {
   std::optional<Vec3> swing_axis{};
   Vec3 swing_center_deg{0.0};  // rotation vector: the middle of the swing relative to rest
   double max_speed_deg_s = 720.0;
-  std::string body{};  // that moves with the joint; "": named like the joint
+  std::string body{};  // name of the body that moves with the joint; "": the joint's name
   std::optional<GuestFollow> follows{};
   bool operator==(const GuestJoint&) const = default;
 };
@@ -84,14 +84,15 @@ struct GuestCharacter {
   std::vector<GuestCollider> colliders;
   std::map<std::string, std::vector<std::string>> parts;  // by slot, the first is the default
   std::vector<std::array<std::string, 2>> may_touch{};    // names of colliders
-  std::map<std::string, std::string> mirror{};  // pairs of left and right joints; all other joints are in the middle
-  std::string model{};  // file from which joints and colliders come; "": the manifest has them all
+  // Pairs of left and right joints. All other joints are in the middle.
+  std::map<std::string, std::string> mirror{};
+  std::string model{};  // file with joints and colliders; "": the manifest has them all
   bool operator==(const GuestCharacter&) const = default;
 };
 
 enum class GuestParamType { number, integer, flag, choice, vec3 };
 
-// The value on the other side of the figure: the same, or the opposite one (a vec3 is reflected).
+// The value of a parameter for the other side of the figure: the same or the opposite one (a vec3 is reflected).
 enum class OtherSide { by_type, same, opposite };
 
 using GuestValue = std::variant<double, Vec3, std::string, bool>;
@@ -131,7 +132,7 @@ struct GuestAction {
   std::optional<double> returns_s{};  // from this time after its end on, the motion equals one without the action
   std::string mirror{};               // the mirrored action, such as "wave_right" for "wave_left"; "": the action
                                       // itself
-  bool travels = false;               // while it is in force the root may jump, as in a loop that carries it
+  bool travels = false;               // while it is in force the root may jump, as in a loop of a walk
   bool operator==(const GuestAction&) const = default;
 };
 

@@ -14,9 +14,9 @@ namespace contort {
 namespace {
 
 constexpr double kLengthTolerance = 1e-3;
-constexpr double kAsymmetry = 0.01;  // of a rest pose, as a share of the figure's size
+constexpr double kAsymmetry = 0.01;  // greatest asymmetry of a rest pose, as a fraction of the figure's size
 
-// Collects the first fault. Each check below does nothing once there is one.
+// Collects the first fault. After a fault the checks below do nothing.
 class ManifestFaults {
  public:
   void expect(bool holds, const char* code, const std::string& pointer, const std::string& text) {
@@ -63,7 +63,7 @@ void check_joint(const GuestCharacter& character, std::size_t index, const std::
                 "the range must hold 0, which is the rest pose: choose a rest pose within the range");
 }
 
-// Followers of followers are fine, as long as somebody leads.
+// Returns true if the joint follows itself through others. Chains of followers are allowed.
 bool is_in_ring(const GuestCharacter& character, std::size_t index) {
   std::size_t at = index;
   for (std::size_t steps = 0; steps <= character.joints.size(); ++steps) {
@@ -73,7 +73,7 @@ bool is_in_ring(const GuestCharacter& character, std::size_t index) {
     at = contort::at(leader);
     if (at == index) return true;
   }
-  return false;  // the ring does not hold this joint, and is told where it does
+  return false;  // the joint leads into a ring without being part of it; the fault is reported at the ring's joints
 }
 
 void check_follower(const GuestCharacter& character, std::size_t index, const std::string& at,
@@ -92,10 +92,11 @@ void check_follower(const GuestCharacter& character, std::size_t index, const st
                 in_quotes(joint.name) + " follows itself, or a joint that follows it");
 }
 
-// A slot hangs on one joint of another one, by one joint or by several, such as fingers.
+// All joints through which a slot is attached must have the same parent; a slot may be attached by several joints, such
+// as fingers.
 void check_slots(const GuestCharacter& character, const std::string& at, ManifestFaults& faults) {
   const std::vector<std::string> slots = slots_of(character);
-  std::map<std::string, int> begun;  // and the joint that carries the slot
+  std::map<std::string, int> begun;  // slot, and the joint that carries it
   for (std::size_t j = 0; j < slots.size(); ++j) {
     const int parent = find_joint(character, character.joints[j].parent);
     if (parent >= 0 && slots[contort::at(parent)] == slots[j]) continue;
@@ -137,7 +138,7 @@ void check_character(const GuestCharacter& character, const std::string& at, Man
   check_colliders(character, at, faults);
 }
 
-// Places of the joints at rest, in our world.
+// Positions of the joints at rest, in our world.
 std::vector<Vec3> rest_points(const GuestCharacter& character, const Basis& basis) {
   std::vector<Rigid> world;
   for (const GuestJoint& joint : character.joints) {
@@ -151,7 +152,7 @@ std::vector<Vec3> rest_points(const GuestCharacter& character, const Basis& basi
   return points;
 }
 
-// The partners must be each other's mirror image at rest, or no motion could be one.
+// Partners must be mirror images of each other at rest; otherwise no motion has a mirror image.
 void check_symmetry(const GuestCharacter& character, const Basis& basis, const std::string& at, ManifestFaults& faults) {
   const std::vector<Vec3> points = rest_points(character, basis);
   const std::vector<std::size_t> partners = partners_of(character);
@@ -218,7 +219,7 @@ void check_param(const GuestParam& param, const std::string& at, ManifestFaults&
     expect_value(param.special[i], at + "/special/" + std::to_string(i));
 }
 
-// An action is there once, or once for each slot, as its parameters may differ between them.
+// An action may be listed once, or once for each slot, because its parameters may differ between slots.
 void expect_distinct(const std::vector<GuestAction>& actions, ManifestFaults& faults) {
   std::set<std::pair<std::string, std::string>> seen;
   for (std::size_t a = 0; a < actions.size(); ++a)

@@ -11,12 +11,12 @@ namespace contort {
 
 namespace {
 
-constexpr std::size_t kMostNamed = 12;  // joints in a message
+constexpr std::size_t kMostNamed = 12;  // greatest number of joints in a message
 
 Quat quat_of(const std::array<double, 4>& q) { return {q[3], q[0], q[1], q[2]}; }
 std::array<double, 4> numbers_of_rotation(const Quat& q) { return {q.x, q.y, q.z, q.w}; }
 
-// Lengths are the file's.
+// Positions are in the file's unit of length.
 std::vector<Rigid> places_at_rest(const GuestCharacter& character) {
   std::vector<Rigid> world;
   for (const GuestJoint& joint : character.joints) {
@@ -41,7 +41,7 @@ Issue unknown_joint(const GuestCharacter& from, const std::string& name, std::si
               (meant.empty() ? "" : "; did you mean " + json_fields::quoted(meant) + "?")};
 }
 
-// A model's joints, and which of them are taken.
+// The joints of a model, and the chosen ones among them.
 class Chosen {
  public:
   Chosen(const GuestCharacter& from, std::span<const std::string> names)
@@ -50,7 +50,7 @@ class Chosen {
       if (const int j = find_joint(from, name); j >= 0) is_taken_[at(j)] = 1;
   }
 
-  // The nearest joint that is taken, from this one on towards the root; -1 if there is none.
+  // The nearest chosen joint from this one on towards the root; -1 if there is none.
   int taken_from(int joint) const {
     while (joint >= 0 && is_taken_[at(joint)] == 0) joint = find_joint(from_, from_.joints[at(joint)].parent);
     return joint;
@@ -66,7 +66,7 @@ class Chosen {
     return out;
   }
 
-  // On the joint that is taken and carries it, or on the first one.
+  // Moves a collider to the nearest chosen joint that carries it, or to the first one.
   GuestCollider collider(GuestCollider shape, int first) const {
     const int own = find_joint(from_, shape.joint), taken = taken_from(own), carrier = taken < 0 ? first : taken;
     const Rigid moved = inverse(world_[at(carrier)]) * world_[at(own)];

@@ -11,12 +11,12 @@ namespace contort {
 
 namespace {
 
-// All are shares of the root's height at rest.
+// All are fractions of the root's height at rest.
 constexpr double kFoot = 0.15;
 constexpr double kTouch = 0.03;
 constexpr double kStays = 0.25;
 constexpr double kPulled = 0.1;
-constexpr double kSameWay = 0.8;  // cosine of the angle between two ways
+constexpr double kSameWay = 0.8;  // smallest cosine of the angle between equal directions
 
 double level_length(const Vec3& v) { return std::sqrt(v.x * v.x + v.z * v.z); }
 
@@ -31,7 +31,7 @@ std::vector<int> feet_of(const Character& character) {
   return feet;
 }
 
-// Places of joints over the motion: by joint, then frame.
+// Positions of joints over the motion: by joint, then frame.
 std::vector<std::vector<Vec3>> paths_of(const Execution& execution, const std::vector<int>& joints) {
   const Motion& motion = execution.motion;
   std::vector<Rigid> world(execution.character->joints().size());
@@ -43,7 +43,7 @@ std::vector<std::vector<Vec3>> paths_of(const Execution& execution, const std::v
   return paths;
 }
 
-// The way that a foot makes while it touches the ground.
+// The horizontal movement of a foot while it touches the ground.
 Vec3 pulled(const std::vector<Vec3>& path, double touch_m) {
   double lowest_m = std::numeric_limits<double>::infinity();
   for (const Vec3& place : path) lowest_m = std::min(lowest_m, place.y);

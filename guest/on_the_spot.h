@@ -5,9 +5,9 @@
 
 namespace contort {
 
-// RootPath::on_the_spot or told (finished_file.h says when). Feet are the joints that carry no other and are at rest
-// within 0.15 of the root's height above the ground; they touch it within 0.03 of that height above the lowest place of
-// each.
+// Returns RootPath::on_the_spot or told (finished_file.h has the conditions). Feet are the joints without children
+// whose height at rest is at most 0.15 of the root's height. A foot touches the ground within 0.03 of that height above
+// its own lowest place.
 RootPath path_of(const Execution& execution);
 
 }  // namespace contort

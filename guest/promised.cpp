@@ -14,7 +14,7 @@ int next_start(const GuestRequest& whole, std::size_t use) {
   const bool is_shared = std::ranges::any_of(whole.uses, [&](const PlacedUse& other) {
     return &other != &whole.uses[use] && other.start_frame == whole.uses[use].start_frame;
   });
-  if (is_shared) return whole.uses[use].start_frame;  // nobody knows which of them comes first
+  if (is_shared) return whole.uses[use].start_frame;  // the order of uses with the same start is not defined
   for (std::size_t u = use + 1; u < whole.uses.size(); ++u)
     if (whole.uses[u].start_frame > whole.uses[use].start_frame) return whole.uses[u].start_frame;
   return whole.frames;
@@ -38,7 +38,7 @@ Promised without(const GuestRequest& whole, std::size_t use, Equality why, int f
   return promised;
 }
 
-// The first frame in which nothing of the use may be left.
+// The first frame in which the use must have no effect any more.
 int returned_frame(const PlacedUse& placed, double rate_hz) {
   const double returns_s = *placed.action->returns_s;
   return placed.end_frame() + placed.use->blend_out_frames + static_cast<int>(std::ceil(returns_s * rate_hz - 1e-9));

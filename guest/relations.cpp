@@ -48,7 +48,7 @@ bool is_opposite(const GuestParam& param) {
   return param.mirror == OtherSide::opposite || param.type == GuestParamType::vec3;
 }
 
-// False where a value is out of its range on the other side.
+// Returns false if a value is out of its range on the other side.
 bool mirror_params(const PlacedUse& placed, const Vec3& left, ActionUse& use) {
   for (const ParamDef& def : placed.offer->params) {
     if (!is_opposite(placed.action->params.at(def.name))) continue;
@@ -59,7 +59,7 @@ bool mirror_params(const PlacedUse& placed, const Vec3& left, ActionUse& use) {
   return true;
 }
 
-// False where the other side has no such part.
+// Returns false if the other side has no such part.
 bool mirror_parts(const GuestCharacter& from, const Spec& spec, Spec& out) {
   out.character.parts.clear();
   for (const auto& [slot, part] : spec.character.parts) {
@@ -78,7 +78,7 @@ bool mirror_parts(const GuestCharacter& from, const Spec& spec, Spec& out) {
 
 Quat reflected(const Quat& q) { return {q.w, q.x, -q.y, -q.z}; }
 
-// The rotations of all joints against the world.
+// The rotations of all joints in the world.
 std::vector<Quat> world_rotations(const Character& character, const Rigid& root, std::span<const double> row) {
   std::vector<Rigid> world(character.joints().size());
   forward_kinematics(character, root, row, world);

@@ -22,7 +22,7 @@ int content_frames(const SequenceDesc& sequence) {
   return end;
 }
 
-// An action may be there several times, for other slots each.
+// An action may be listed several times, for different slots.
 const GuestAction* find_action(const GuestManifest& manifest, const ActionUse& use) {
   const GuestAction* named = nullptr;
   for (const GuestAction& action : manifest.actions) {
@@ -33,7 +33,7 @@ const GuestAction* find_action(const GuestManifest& manifest, const ActionUse& u
   return named;
 }
 
-// The first feature of the spec that no generator of this kind has.
+// The first feature of the spec that programs do not support.
 const char* unsupported(const Spec& spec) {
   if (!spec.interrupts.empty()) return "/interrupts";
   if (!spec.recording.name.empty()) return "/recording";

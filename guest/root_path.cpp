@@ -12,7 +12,8 @@ namespace contort {
 
 namespace {
 
-// Logs round quaternions to two or three digits. Beyond that they are no rotations, but Euler angles, say.
+// Logs round quaternions to two or three digits. With greater errors the columns are no quaternion but, for example,
+// Euler angles.
 constexpr double kGreatestLengthError = 0.02;
 
 std::string quoted_column(const JointTable& table, std::size_t column) {
@@ -25,7 +26,7 @@ Issue duplicate_root(const JointTable& table, std::size_t one, std::size_t other
               " both say where the root is; give the one that does not another name"};
 }
 
-// Positions alone would say nothing about how the figure stands.
+// Positions without rotations are refused, because they do not give the figure's orientation.
 Issue incomplete_root(const JointTable& table, const std::array<std::optional<std::size_t>, kRootNumbers>& found) {
   std::string names, missing;
   for (std::size_t n = 0; n < kRootNumbers; ++n) {

@@ -19,8 +19,8 @@ struct RootColumns {
   std::array<double, kRootNumbers> factors{};
 };
 
-// Which of the free columns, which belong to no joint, say where the root is. Nothing if none of them does. Codes
-// table.incomplete_root, .duplicate_root, .wrong_unit, and the fault of one of the columns.
+// Finds the columns of the root among the free columns, which belong to no joint. Returns nothing if there are none.
+// Codes table.incomplete_root, .duplicate_root, .wrong_unit, and the fault of one of the columns.
 Result<std::optional<RootColumns>> find_root_columns(const JointTable& table, std::span<const std::size_t> free);
 
 // Returns the root's pose in each row, in a character's axes: +Y up, +Z forward. The table's axes are these, or those

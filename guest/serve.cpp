@@ -16,7 +16,7 @@ using json_fields::Json;
 
 constexpr std::size_t kLongestLine = 1 << 20;
 
-// False at the end of the input.
+// Returns false at the end of the input.
 bool read_request(std::FILE* in, std::string& line) {
   line.clear();
   for (int c = std::fgetc(in); c != EOF; c = std::fgetc(in)) {
@@ -49,7 +49,7 @@ ActionUse use_of(const Json& asked, double rate_hz) {
   return use;
 }
 
-// All uses in one clip, and then the figure holds still until the last frame.
+// Puts all uses into one clip. After it, the figure holds still until the last frame.
 Spec spec_of(const Json& asked) {
   Spec spec;
   spec.character.name = asked.at("character").get<std::string>();

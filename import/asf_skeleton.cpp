@@ -13,13 +13,14 @@ namespace contort {
 namespace {
 
 constexpr double kMetresPerInch = 0.0254;
-constexpr double kLeastFigure_m = 0.5, kGreatestFigure_m = 3.0;    // by the file's unit; else it is not in inches
+// Sizes by the file's unit; for other sizes the unit is not inches.
+constexpr double kLeastFigure_m = 0.5, kGreatestFigure_m = 3.0;
 constexpr double kLeastSide_m = 0.2, kGreatestSide_m = 30.0;       // as for models
 constexpr double kMassOfHeight_kg_m2 = 24.1, kCapsuleDensity_kg_m3 = 1000.0;
-constexpr double kOtherThickness = 0.15;                           // of the length of a bone without a known name
-constexpr double kShortestBone = 0.002;                            // of the height: shorter ones have no capsule
+constexpr double kOtherThickness = 0.15;  // thickness of a bone without a known name, as a fraction of its length
+constexpr double kShortestBone = 0.002;  // as a fraction of the height: shorter bones have no capsule
 
-// Radii of people's bodies as shares of their height. They are those of slender people, so that what meets is a fault.
+// Radii of human bodies as fractions of their height. They are those of slender people, so that a collision is a fault.
 double radius_share(BoneFamily family) {
   switch (family) {
     case BoneFamily::hips:
@@ -41,10 +42,10 @@ double radius_share(BoneFamily family) {
   }
 }
 
-// A character's axes are +Y up and +Z forward, as here; a robot's are +Z up and +X forward.
+// Converts from a character's axes (+Y up, +Z forward), which this file uses, to a robot's (+Z up, +X forward).
 Vec3 in_robot_axes(const Vec3& v) { return {v.z, v.x, v.y}; }
 
-// Places of the ends of all bones at rest, in the file's unit.
+// Positions of the ends of all bones at rest, in the file's unit.
 std::vector<Vec3> ends_at_rest(const AsfSkeleton& skeleton) {
   std::vector<Vec3> ends(skeleton.bones.size(), Vec3(0.0));
   for (const int bone : skeleton.order) {
@@ -82,7 +83,7 @@ double volume_of_bone(const Capsule& capsule) {
   return area * (length(capsule.b_m - capsule.a_m) + 4.0 / 3.0 * r);
 }
 
-// Of a capsule, as a cylinder of its whole length: what people's limbs are is not known better.
+// The inertia of a cylinder with the capsule's whole length. This is as exact as the data about human limbs.
 BodyInertia inertia_of_bone(const Capsule& capsule, double mass_kg) {
   const double r = capsule.radius_m, whole = length(capsule.b_m - capsule.a_m) + 2.0 * r;
   const Vec3 along = glm::normalize(capsule.b_m - capsule.a_m);
@@ -126,7 +127,7 @@ class AsfRobot {
     out_.bodies.push_back(std::move(body));
   }
 
-  // The turn that is applied last is the outermost.
+  // The rotation that is applied last is the outermost joint.
   void add_joints(const AsfBone& bone, RobotBody& body) {
     for (const AsfDof& dof : bone.dofs) {
       if (dof.kind == DofKind::length) stretching_.push_back(bone.name);
@@ -155,7 +156,7 @@ class AsfRobot {
     if (!(long_m > kShortestBone * height_m)) return;
     const double share = radius_share(sense_of(bone.name).family);
     const double radius_m = share > 0.0 ? share * height_m : kOtherThickness * long_m;
-    const double inset = std::min(radius_m / long_m, 0.45);  // ends are round: they reach as far as the bone
+    const double inset = std::min(radius_m / long_m, 0.45);  // capsules have round ends, which reach as far as the bone
     const Vec3 first_m = in_robot_axes(inset * end_m), last_m = in_robot_axes((1.0 - inset) * end_m);
     body.shapes.push_back({.shape = Capsule{first_m, last_m, radius_m}});
   }

@@ -12,13 +12,13 @@ namespace contort {
 
 namespace {
 
-constexpr double kLeastRadius = 0.006;  // of the figure's greatest extent
+constexpr double kLeastRadius = 0.006;  // as a fraction of the figure's greatest extent
 constexpr double kDensity_kg_m3 = 1000.0;
-constexpr double kHumanHeight_m = 3.0;  // a humanoid that is taller weighs what its volume does
+constexpr double kHumanHeight_m = 3.0;  // the mass of a taller humanoid follows from its volume
 constexpr double kMassByHeight = 24.1;  // kg/m^2: 73 kg at 1.741 m
-constexpr double kLeastMass_kg = 1e-3;  // of a body; less would count as a massless link
+constexpr double kLeastMass_kg = 1e-3;  // smallest mass of a body; with less it would count as a massless link
 
-// Never 0, however flat the figure is: bodies have volume, and mass.
+// The smallest radius of a body. It is never 0, even for a flat figure, because bodies have volume and mass.
 double least_radius_m(const RiggedFigure& figure) {
   double size = figure.height_m;
   for (const Bone& bone : figure.bones) {
@@ -28,7 +28,7 @@ double least_radius_m(const RiggedFigure& figure) {
   return std::max(kLeastRadius * size, 1e-3);
 }
 
-// Feet are laid on the ground by their box (motion/legs.h): the sole is its lower face.
+// The box around a foot. Its lower face is the sole that stands on the ground (motion/legs.h).
 Box sole_box(const RiggedFigure& figure, const Bone& bone) {
   Vec3 low(std::numeric_limits<double>::infinity()), high = -low;
   for (const Vec3& p : bone.points_m) low = glm::min(low, p), high = glm::max(high, p);
@@ -43,7 +43,8 @@ bool is_flat_foot(const RiggedFigure& figure, int bone) {
   return box.half_m.y < std::max(box.half_m.x, box.half_m.z);
 }
 
-// The fractions of P. de Leva, J. Biomechanics 29(9), 1996, for men; both sides of a limb together.
+// The segment whose mass fraction applies to a role: P. de Leva, J. Biomechanics 29(9), 1996, for men; both sides of a
+// limb together.
 BoneRole segment_of(BoneRole role) {
   switch (role) {
     case BoneRole::head:
@@ -112,7 +113,7 @@ bool weighs_as_human(const RiggedFigure& figure) { return figure.is_humanoid && 
 void weigh(const RiggedFigure& figure, std::vector<BoneBody>& bodies) {
   std::map<BoneRole, double> volume_of;
   for (std::size_t b = 0; b < bodies.size(); ++b) volume_of[segment_of(figure.bones[b].role)] += bodies[b].volume_m3;
-  double shares = 0.0;  // of the segments that the figure has
+  double shares = 0.0;  // mass fractions of the segments that the figure has
   for (const auto& [segment, volume] : volume_of) shares += volume > 0.0 ? share_of(segment) : 0.0;
   const double total_kg = kMassByHeight * figure.height_m * figure.height_m;
   for (std::size_t b = 0; b < bodies.size(); ++b) {

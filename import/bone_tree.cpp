@@ -34,7 +34,7 @@ bool has_child(const RiggedFigure& figure, int bone, bool (*is_meant)(const Bone
 
 bool is_foot(const Bone& bone) { return bone.family == BoneFamily::foot; }
 
-// The end of a leg of that side that is nearest, one without a foot before others; -1 where there is none.
+// The nearest end of a leg of that side; legs without a foot come first. -1 if there is none.
 int leg_for(const RiggedFigure& figure, const Bone& foot) {
   int best = -1;
   double nearest = std::numeric_limits<double>::infinity();
@@ -66,7 +66,7 @@ void hang_feet_on_legs(RiggedFigure& figure) {
   }
 }
 
-// The root of the tree with the most points, and of equal ones the first.
+// The root of the tree with the most points; the first of several equal ones.
 int root_of_most(const RiggedFigure& figure) {
   int root = -1;
   std::size_t most = 0;
@@ -86,7 +86,7 @@ void hang_trees_on(RiggedFigure& figure, int root) {
   }
 }
 
-// The first bone from the root on that is no handle. Handles are no longer parts of the tree.
+// The first bone from the root on that is no handle. Handles are removed from the tree.
 int without_handles(RiggedFigure& figure, int root) {
   for (;;) {
     const std::vector<int> below = children_of(figure, root);
@@ -97,7 +97,7 @@ int without_handles(RiggedFigure& figure, int root) {
   }
 }
 
-// Depth first, children in the order of the file.
+// Lists the bones depth first, children in the order of the file.
 std::vector<int> order_below(const RiggedFigure& figure, int root) {
   std::vector<int> order, open = {root};
   while (!open.empty()) {
@@ -109,7 +109,7 @@ std::vector<int> order_below(const RiggedFigure& figure, int root) {
   return order;
 }
 
-// Keeps the bones below the root alone.
+// Keeps only the bones below the root.
 void sort_below(RiggedFigure& figure, int root) {
   const std::vector<int> order = order_below(figure, root);
   std::vector<int> place(figure.bones.size(), -1);

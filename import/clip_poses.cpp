@@ -11,7 +11,7 @@ namespace {
 constexpr int kMostPoses = 2400;
 constexpr int kMostPerClip = 120;
 
-// The rotation of every node in the world; scales do not turn it.
+// The rotation of every node in the world. Scales do not affect it.
 std::vector<Quat> world_turns(const Asset& asset, const std::vector<Trs>& local) {
   std::vector<Quat> world(asset.nodes.size(), kNoRotation);
   for (const int node : asset.order) {

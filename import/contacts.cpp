@@ -16,11 +16,11 @@ namespace contort {
 
 namespace {
 
-constexpr std::size_t kMostPairs = 1000;  // of a character's file
+constexpr std::size_t kMostPairs = 1000;  // as many as a character's file may list
 constexpr double kPosesPerClip = 24.0;
 constexpr int kMostContactPoses = 600;
 
-// An overlap is no fault if it is in this share of the poses.
+// An overlap is allowed if it occurs in this fraction of the poses.
 struct Habit {
   double share;
   const char* reason;
@@ -103,11 +103,12 @@ class ContactFinder {
   const Habit& habit_;
   std::vector<Solid> solids_;
   std::vector<Rigid> world_;
-  std::vector<PairCount> counts_;  // by judged_colliders()
+  std::vector<PairCount> counts_;  // by index into judged_colliders()
   int poses_ = 0;
 };
 
-// The bits of the engine are the standard's; those of its distributions are not.
+// Draws poses within all ranges. Only the bits of the standard's engine are used, because its distributions differ
+// between libraries.
 class EvenPoses {
  public:
   explicit EvenPoses(const Character& character)
@@ -128,7 +129,7 @@ class EvenPoses {
       coords[0] = between(joint.low, joint.high);
       return;
     }
-    const double share = std::sqrt(between(0.0, 1.0)), angle_rad = between(-kPi, kPi);  // evenly in the ellipse
+    const double share = std::sqrt(between(0.0, 1.0)), angle_rad = between(-kPi, kPi);  // uniform in the ellipse
     set_swing_twist(joint,
                     {joint.swing_a_rad * share * det::cos(angle_rad), joint.swing_b_rad * share * det::sin(angle_rad),
                      between(std::max(joint.low, -kPi), std::min(joint.high, kPi))},
@@ -160,7 +161,7 @@ OwnContacts find_contacts(const Character& character, const Asset& asset,
     if (poses >= kMostContactPoses || !(length_s > 0.0)) continue;
     const double rate_hz = std::min(30.0, kPosesPerClip / length_s);
     const Result<Motion> motion = follow_recording(character, {asset, clip, joints, 0.0, rate_hz, 0, Rigid{}});
-    if (!motion) continue;  // names that do not fit: then the rest pose alone tells
+    if (!motion) continue;  // if names do not match, only the rest pose counts
     for (int frame = 0; frame < motion->frame_count; ++frame, ++poses)
       finder.pose(motion->root[at(frame)], motion->row(frame));
   }

@@ -10,8 +10,9 @@ namespace contort {
 
 namespace {
 
-constexpr std::size_t kMostParts = 64;  // as slots of a character
-constexpr std::size_t kMostBones = 30;  // of a part: with two joints for each, within its 64
+constexpr std::size_t kMostParts = 64;  // as many as a character has slots
+// Greatest number of bones of a part: with two joints for each, it stays below 64 joints.
+constexpr std::size_t kMostBones = 30;
 
 int subtree_size(const RiggedFigure& figure, int bone) {
   int size = 1;
@@ -19,7 +20,7 @@ int subtree_size(const RiggedFigure& figure, int bone) {
   return size;
 }
 
-// The kind of part that a role makes; "" for those that stay with what carries them.
+// The kind of part for a role; "" for bones that stay in their carrier's part.
 std::string kind_of(BoneRole role) {
   switch (role) {
     case BoneRole::spine: return "torso";
@@ -39,7 +40,7 @@ std::string kind_of(BoneRole role) {
 
 bool is_limb(const std::string& kind) { return kind == "arm" || kind == "leg" || kind == "hand" || kind == "foot"; }
 
-// The kind of the new part that begins with this bone; "" where it stays in its carrier's.
+// The kind of the new part that begins with this bone; "" if the bone stays in its carrier's part.
 std::string begins(const RiggedFigure& figure, int index, const PartPlan& carrier) {
   const Bone& bone = bone_at(figure, index);
   const std::string kind = kind_of(bone.role);

@@ -63,16 +63,16 @@ struct Bone {
   Side side = Side::center;
   BoneRole role = BoneRole::other;
   Vec3 position_m{0.0};        // relative to the root
-  std::vector<Vec3> points_m;  // evenly spread points of the surface that it owns, relative to the bone's position
+  std::vector<Vec3> points_m;  // evenly spread points of the bone's surface, relative to its position
 };
 
 struct RiggedFigure {
   std::vector<Bone> bones;              // parents first
-  Quat world_from_model = kNoRotation;  // the turn that makes it face +Z
+  Quat world_from_model = kNoRotation;  // the rotation that makes the figure face +Z
   double metres_per_unit = 1.0;
   double height_m = 0.0;      // height of all vertices
   double ground_m = 0.0;      // height of the lowest vertex relative to the root
-  bool is_humanoid = false;   // two arms and two legs of two bones, spine upright
+  bool is_humanoid = false;   // it has two arms and two legs of two bones each, and an upright spine
   bool is_quadruped = false;  // four legs on the ground
   int vertex_count = 0;
   std::vector<std::string> notes;  // guesses, for the report

@@ -10,10 +10,11 @@ namespace contort {
 
 namespace {
 
-constexpr double kTrimmed = 0.02;  // of the points, at either end: stray vertices, ribbons, fingertips
+// Fraction of the points that is ignored at either end: stray vertices, ribbons, fingertips.
+constexpr double kTrimmed = 0.02;
 constexpr int kSideBySide = 4;
-constexpr double kFlat = 1.5;  // from this ratio of width to depth on, capsules stand side by side
-constexpr double kLong = 2.5;  // from this ratio of length to width on, two follow one another
+constexpr double kFlat = 1.5;  // from this ratio of width to depth on, capsules are placed side by side
+constexpr double kLong = 2.5;  // from this ratio of length to width on, capsules are placed one after another
 
 struct Range {
   double low = 0.0;
@@ -58,7 +59,8 @@ double size_of(const FittedBox& box, double least) {
   return product;
 }
 
-// One piece of a body, in the axes of the whole: capsules side by side along its longest side.
+// Fills one piece of a body, in the axes of the whole body: one capsule along its longest side, or several side by
+// side.
 void fill(const FittedBox& box, double least_radius_m, int most, std::vector<Capsule>& out) {
   const double width = std::max(box.half_m[1], least_radius_m), depth = std::max(box.half_m[2], least_radius_m);
   const bool is_flat = width > kFlat * depth;
@@ -72,7 +74,7 @@ void fill(const FittedBox& box, double least_radius_m, int most, std::vector<Cap
   }
 }
 
-// The same box of those points that lie on one side of its middle, the longest side kept.
+// The box of the points on one side of the middle, with the same axes.
 FittedBox half_of(const FittedBox& box, const std::vector<Vec3>& points, bool upper) {
   std::vector<Vec3> part;
   for (const Vec3& p : points)
@@ -94,7 +96,7 @@ FittedBox half_of(const FittedBox& box, const std::vector<Vec3>& points, bool up
 
 Eigen3 eigen_of(const Mat3& symmetric) {
   Mat3 a = symmetric, v(1.0);
-  constexpr int kSweeps = 12;  // Jacobi converges quadratically: 5 do for doubles
+  constexpr int kSweeps = 12;  // Jacobi's method converges quadratically: 5 sweeps are enough for doubles
   for (int sweep = 0; sweep < kSweeps; ++sweep)
     for (int p = 0; p < 2; ++p)
       for (int q = p + 1; q < 3; ++q) {
@@ -118,7 +120,7 @@ Eigen3 eigen_of(const Mat3& symmetric) {
 FittedBox fit_box(const std::vector<Vec3>& points, const Vec3& bone) {
   const Mat3 spread = covariance(points);
   const Eigen3 own = eigen_of(spread);
-  // Across the bone: the main axis of what is left of the spread there.
+  // The direction across the bone in which the points spread most.
   const Vec3 side = perpendicular(bone), other = glm::cross(bone, side);
   const double a = glm::dot(side, spread * side), b = glm::dot(side, spread * other),
                c = glm::dot(other, spread * other);
@@ -148,7 +150,7 @@ std::vector<Capsule> fit_capsules(const std::vector<Vec3>& points, const Vec3& b
     return out;
   }
   for (const bool upper : {false, true}) fill(half_of(box, points, upper), least_radius_m, 2, out);
-  // They overlap by a radius at most, so that no gap opens between round ends.
+  // Both end at the same point, so they overlap by a radius and leave no gap between their round ends.
   if (out.size() == 2) {
     const Vec3 joint = 0.5 * (out[0].b_m + out[1].a_m);
     out[0].b_m = out[1].a_m = joint;
@@ -164,7 +166,7 @@ double volume_m3(const Box& box) { return 8.0 * box.half_m.x * box.half_m.y * bo
 
 BodyInertia inertia_of(const Capsule& c, double mass_kg) {
   const double r = c.radius_m, h = length(c.b_m - c.a_m);
-  const double tube = h / (h + 4.0 / 3.0 * r), balls = 1.0 - tube;  // shares of the volume
+  const double tube = h / (h + 4.0 / 3.0 * r), balls = 1.0 - tube;  // fractions of the volume
   const double along = mass_kg * r * r * (0.5 * tube + 0.4 * balls);
   const double across =
       mass_kg * (tube * (r * r / 4.0 + h * h / 12.0) + balls * (0.4 * r * r + h * h / 4.0 + 3.0 / 8.0 * h * r));

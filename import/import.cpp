@@ -14,9 +14,9 @@ namespace contort {
 
 namespace {
 
-constexpr std::size_t kMostNameBytes = 26;  // a part's name is it and its slot's
+constexpr std::size_t kMostNameBytes = 26;  // a part's name is this name and its slot's name
 
-// The library that the files make; what they say is what counts, not what we meant.
+// Parses the files that were made. These count, not the data from which they were made.
 Result<Library> read_back(const CutFigure& cut) {
   Library library;
   for (const PartDesc& part : cut.parts) {
@@ -41,7 +41,7 @@ SkinDesc skin_of(const Imported& imported) {
           to_rotation_vector(imported.figure.world_from_model) * kDegPerRad, imported.cut.carrier_of_node};
 }
 
-// The root is in it too: without it nobody knows where the figure goes.
+// The map also has the root, without which the figure's path is unknown.
 std::map<std::string, std::string> map_of(const Imported& imported) {
   std::map<std::string, std::string> joints = imported.cut.joint_of_node;
   const std::string& root = imported.figure.bones.front().label;

@@ -10,23 +10,23 @@ namespace contort {
 
 namespace {
 
-constexpr double kMargin = 0.1;      // of a range that was seen
-constexpr double kMargin_deg = 5.0;  // at least
-constexpr double kMoves_deg = 2.0;   // a bone that clips turn by less says nothing about its range
-constexpr double kBent_deg = 10.0;   // a knee or elbow that is bent at rest by more shows its axis
+constexpr double kMargin = 0.1;      // a range from clips is widened by this fraction
+constexpr double kMargin_deg = 5.0;  // and at least by this
+constexpr double kMoves_deg = 2.0;   // a bone that turns less in clips shows nothing about its range
+constexpr double kBent_deg = 10.0;   // a knee or elbow that is bent more at rest shows its axis
 constexpr double kGenericSwing_deg = 45.0, kGenericTwist_deg = 30.0, kGenericHinge_deg = 60.0;
 
-// ---- the table of people, in the stance with hanging arms; sources as in docs/reference/characters.md
+// ---- the table for people, with hanging arms; sources as in docs/reference/characters.md
 
 struct BallRow {
   BoneRole role;
-  Vec3 neutral;  // how the bone lies in that stance; 0: as it lies at rest
+  Vec3 neutral;  // direction of the bone in that stance; 0: its direction at rest
   Vec3 center_deg;
   Vec3 swing_axis;
   std::array<double, 2> swing_deg;
   double low_deg;
   double high_deg;
-  bool shared;  // among all bones of that role
+  bool shared;  // the range is divided among all bones of that role
 };
 const BallRow kTable[] = {
     // Lumbar flexion 75, extension 30, to the sides 35, turning 38.
@@ -39,9 +39,8 @@ const BallRow kTable[] = {
     {BoneRole::upper_arm, {0, -1, 0}, {-42, 0, 56}, {-0.6, 0, 0.8}, {115, 105}, -110, 80, false},
     // Flexion 125, extension 30, abduction 45, adduction 25, rotation 40 and 60, as one cone.
     {BoneRole::thigh, {0, -1, 0}, {-47.5, 0, 10}, {1, 0, 0}, {90, 50}, -60, 60, false},
-    // Flexion 80, extension 70; which way the palm faces is unknown, so that the cone is round. The forearm's own turn,
-    // 80
-    // each way, is counted here.
+    // Flexion 80, extension 70. The direction of the palm is unknown, so the cone is round. The forearm's own rotation,
+    // 80 each way, is included here.
     {BoneRole::hand, {0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {80, 80}, -85, 85, false},
 };
 constexpr double kElbow_deg = 150.0, kKnee_deg = 140.0;
@@ -54,7 +53,7 @@ double twist_rad(const Quat& q, const Vec3& axis) {
   return wrap_angle(2.0 * det::atan2(glm::dot(axis, Vec3(q.x, q.y, q.z)), q.w));
 }
 
-// The rest of a rotation without its twist, as a rotation vector across the axis.
+// The rotation without its twist, as a rotation vector at a right angle to the axis.
 Vec3 swing_of(const Quat& q, const Vec3& axis) {
   return to_rotation_vector(q * glm::conjugate(axis_angle(axis, twist_rad(q, axis))));
 }
@@ -66,11 +65,12 @@ bool moves(const std::vector<Quat>& poses) {
 
 // ---- balls
 
-// The ellipse, with the proportions of its bounding box, that holds all swings, as seen from the limit frame.
+// The smallest ellipse, with the proportions of its bounding box, that contains all swings as seen from the limit
+// frame.
 struct SwingFit {
   double a_rad = 0.0;
   double b_rad = 0.0;
-  double low_rad = 0.0;  // twist
+  double low_rad = 0.0;  // lowest twist
   double high_rad = 0.0;
 };
 
@@ -97,7 +97,7 @@ SwingFit fit_swings(const std::vector<Quat>& poses, const Quat& center, const Ve
 }
 
 BoneJoint ball_from_clips(const Vec3& axis, std::vector<Quat> poses) {
-  poses.push_back(kNoRotation);  // the rest pose is in range, always
+  poses.push_back(kNoRotation);  // the rest pose is always in range
   const Vec3 side = perpendicular(axis), other = glm::cross(axis, side);
   Mat3 spread(0.0);
   for (const Quat& q : poses) {
@@ -132,7 +132,7 @@ BoneJoint generic_ball(const Vec3& axis) {
   return out;
 }
 
-// The reach of a rotation as a share of a ball's range; <= 1 is inside.
+// The distance of a rotation from the centre, as a fraction of a ball's range; <= 1 is inside.
 double share_of_range(const BoneJoint& joint, const Quat& q) {
   const Quat seen = glm::conjugate(from_rotation_vector(joint.swing_center_deg * kRadPerDeg)) * q;
   const Vec3 swing = swing_of(seen, joint.axis) * kDegPerRad;
@@ -154,7 +154,7 @@ int count_of(const RiggedFigure& figure, const Bone& like) {
 }
 
 BoneJoint ball_from_table(const RiggedFigure& figure, const Bone& bone, const BallRow& row, const Vec3& axis) {
-  // The bone at rest is the one of the table turned by this: the range moves with it.
+  // The bone at rest differs from the table's stance by this rotation, and the range is rotated in the same way.
   const bool follows = row.neutral == Vec3(0.0);
   const Quat rest_from_neutral = follows ? kNoRotation : shortest_arc(row.neutral, axis);
   const Quat center = from_rotation_vector(row.center_deg * kRadPerDeg) * glm::conjugate(rest_from_neutral);
@@ -165,11 +165,11 @@ BoneJoint ball_from_table(const RiggedFigure& figure, const Bone& bone, const Ba
   for (std::size_t i = 0; i < 2; ++i) out.swing_deg[i] = outward(share * row.swing_deg[i]);
   out.low_deg = -outward(-share * row.low_deg), out.high_deg = outward(share * row.high_deg);
   const Vec3 turn = to_rotation_vector(center) * kDegPerRad;
-  // A bone of the spine takes only its share, one of a limb all of it.
+  // A bone of the spine takes its share of the centre, a bone of a limb the whole centre.
   for (int i = 0; i < 3; ++i)
     out.swing_center_deg[i] = on_lattice(row.shared ? share * row.center_deg[i] : turn[i], 10.0);
   out.source = LimitSource::table;
-  // Rest poses that people could not take: the range grows until it holds them.
+  // If the rest pose is outside of the human range, the range grows until it contains it.
   if (const double over = share_of_range(out, kNoRotation); over > 0.95) {
     for (double& half : out.swing_deg) half = std::min(outward(half * (over + 0.05)), 180.0);
     out.low_deg = std::max(outward(out.low_deg * (over + 0.05)), -180.0);
@@ -189,7 +189,7 @@ BoneJoint ball_of(const RiggedFigure& figure, int index, const std::vector<Quat>
 
 // ---- hinges
 
-// The axis about which clips turn a bone, where they mostly turn it about one; 0 otherwise.
+// The axis about which clips turn a bone, if most of its rotation is about one axis; otherwise 0.
 Vec3 axis_of_clips(const std::vector<Quat>& poses) {
   constexpr double kMostly = 0.85;
   constexpr double kEnough_deg = 15.0;
@@ -204,7 +204,7 @@ Vec3 axis_of_clips(const std::vector<Quat>& poses) {
   return most > kEnough_deg * kRadPerDeg && eigen.values[0] > kMostly * sum ? eigen.vectors[0] : Vec3(0.0);
 }
 
-// Positive is further bent. For a person's elbow and knee: forearms bend forward, shanks backward.
+// The axis of a person's elbow or knee. Positive angles bend further: forearms forward, shanks backward.
 Vec3 anatomical_axis(const Vec3& upper, BoneRole role) {
   const Vec3 toward(0.0, 0.0, role == BoneRole::forearm ? 1.0 : -1.0);
   return unit_or(glm::cross(upper, toward), Vec3(role == BoneRole::forearm ? -1.0 : 1.0, 0.0, 0.0));
@@ -273,7 +273,7 @@ BoneJoint ankle_of(const RiggedFigure& figure, const std::vector<Quat>& poses) {
 }  // namespace
 
 bool is_sole_bone(const RiggedFigure& figure, int bone) {
-  constexpr double kNear = 0.06;  // of the height: how far above the lowest vertex a sole may be
+  constexpr double kNear = 0.06;  // fraction of the height that a sole may be above the lowest vertex
   const Bone& own = bone_at(figure, bone);
   return own.role == BoneRole::foot && own.side != Side::center &&
          lowest_below_m(figure, bone) < figure.ground_m + kNear * figure.height_m;
@@ -293,7 +293,7 @@ BoneJoint joint_of(const RiggedFigure& figure, int index, const std::vector<Quat
 
 namespace {
 
-// As near to the rotation as the joint gets.
+// The nearest rotation that the joint can reach.
 Quat taken(const BoneJoint& joint, const Quat& q) {
   if (joint.type == JointType::ball) return q;
   const Quat first = axis_angle(joint.axis, twist_rad(q, joint.axis));

@@ -9,11 +9,11 @@ namespace contort {
 
 namespace {
 
-constexpr double kMostMetres = 90.0;  // of a figure, and of a joint from the root
+constexpr double kMostMetres = 90.0;  // greatest size of a figure, and greatest distance of a joint from the root
 
 double largest_side(const Vec3& size) { return std::max({size.x, size.y, size.z}); }
 
-// From the figure's right to its left, level; 0 where no names tell.
+// The horizontal direction from the figure's right to its left; 0 if the names do not show it.
 Vec3 to_left(const RiggedFigure& figure) {
   Vec3 sum(0.0);
   int left = 0, right = 0;
@@ -24,7 +24,7 @@ Vec3 to_left(const RiggedFigure& figure) {
   return left == right && left > 0 ? Vec3(sum.x, 0.0, sum.z) : Vec3(0.0);
 }
 
-// From the feet to the upper legs; 0 where no names tell.
+// The direction from the feet to the upper legs; 0 if the names do not show it.
 Vec3 up_along_legs(const RiggedFigure& figure) {
   Vec3 upper(0.0), lower(0.0);
   int uppers = 0, lowers = 0;
@@ -36,7 +36,7 @@ Vec3 up_along_legs(const RiggedFigure& figure) {
   return uppers == 0 || lowers == 0 ? Vec3(0.0) : upper / (1.0 * uppers) - lower / (1.0 * lowers);
 }
 
-// Stands a figure up whose legs lie level or point up, by a multiple of a quarter turn.
+// The rotation, in quarter turns, that stands up a figure whose legs are level or point up.
 Quat standing(RiggedFigure& figure) {
   const Vec3 up = up_along_legs(figure);
   if (!(length(up) > 0.0) || up.y > 0.5 * length(up)) return kNoRotation;
@@ -50,7 +50,7 @@ Quat standing(RiggedFigure& figure) {
   return {half, 0.0, 0.0, up.x > 0.0 ? half : -half};
 }
 
-// Turns everything that is still in the file's units.
+// Rotates all data, which are still in the file's units.
 ModelBox turn_figure(RiggedFigure& figure, const ModelBox& box, const Quat& turn) {
   if (turn == kNoRotation) return box;
   for (Bone& bone : figure.bones) {
@@ -62,7 +62,8 @@ ModelBox turn_figure(RiggedFigure& figure, const ModelBox& box, const Quat& turn
   return out;
 }
 
-// People do not have every height; what is no person has its weight from its volume, which is often hollow.
+// Notes a height that is unusual for people. The mass of other figures follows from their volume, and models are often
+// hollow.
 void note_size(RiggedFigure& figure) {
   constexpr double kLeastPerson_m = 0.5, kGreatestPerson_m = 2.5, kGreatestModel_m = 4.0;
   int arms = 0;
@@ -76,7 +77,7 @@ void note_size(RiggedFigure& figure) {
                            "says how high it really is.");
 }
 
-// A multiple of a quarter turn: models stand along the axes.
+// The rotation about the vertical, in quarter turns because models stand along the axes, that makes the figure face +Z.
 Quat facing(RiggedFigure& figure, double size) {
   const Vec3 left = to_left(figure);
   if (length(left) < 1e-3 * size) {
@@ -93,7 +94,7 @@ Quat facing(RiggedFigure& figure, double size) {
   return {half, 0.0, left.z > 0.0 ? half : -half, 0.0};
 }
 
-// 1 for sizes that figures may have in metres; else the power of ten that brings them there.
+// Returns 1 for sizes that figures may have in metres; otherwise the power of ten that brings them into that range.
 double guessed_scale(RiggedFigure& figure, double largest) {
   double scale = 1.0;
   if (largest >= 0.2 && largest <= 30.0) return scale;

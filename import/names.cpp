@@ -23,7 +23,7 @@ bool is_one_of(std::string_view word, const std::array<std::string_view, N>& wor
 
 constexpr std::array<std::string_view, 3> kLeft = {"l", "left", "lft"};
 constexpr std::array<std::string_view, 4> kRight = {"r", "right", "rgt", "rt"};
-// Say nothing about what a joint is.
+// Words that do not help to recognise a joint.
 constexpr std::array<std::string_view, 13> kNoise = {"mixamorig", "skeleton", "joint", "jnt", "bone", "def",      "org",
                                                      "bip",       "armature", "rig",   "b",   "j",    "character"};
 
@@ -33,7 +33,7 @@ constexpr std::array<std::string_view, 12> kWordsOfCmu = {"femur", "tibia", "foo
 
 constexpr std::array<std::string_view, 3> kTurnsOfCmu = {"rx", "ry", "rz"};
 
-// The first row that fits decides: "forearm" before "arm".
+// The first matching row counts: "forearm" comes before "arm".
 struct FamilyRow {
   std::string_view part;
   BoneFamily family;
@@ -62,7 +62,7 @@ constexpr FamilyRow kRows[] = {
 };
 
 BoneFamily family_of(std::string_view squashed, Side side) {
-  if (squashed == "ring") return BoneFamily::finger;  // whole words: "spring" and "football" are none of these
+  if (squashed == "ring") return BoneFamily::finger;  // whole words only, because of "spring" and "football"
   if (squashed == "ball") return BoneFamily::toe;
   if (squashed == "back") return BoneFamily::spine;
   for (const FamilyRow& row : kRows) {
@@ -100,7 +100,7 @@ std::vector<std::string> words_of(std::string_view name) {
 
 namespace {
 
-// "lfemur" gives "l" and "femur", and so does the degree of freedom "lfemur_rz".
+// Splits CMU's names: "lfemur", and the degree of freedom "lfemur_rz", give "l" and "femur".
 std::vector<std::string> split_cmu(std::vector<std::string> words) {
   if (words.size() == 2 && is_one_of(words[1], kTurnsOfCmu)) words.pop_back();
   if (words.size() != 1 || words[0].size() < 2) return words;

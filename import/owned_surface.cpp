@@ -10,8 +10,8 @@ namespace contort {
 
 namespace {
 
-constexpr double kSurfacePoints = 40000.0;  // of a figure
-constexpr std::size_t kFewPoints = 40;      // of a node
+constexpr double kSurfacePoints = 40000.0;  // points of a figure
+constexpr std::size_t kFewPoints = 40;      // points of a node
 
 using Points = std::vector<Vec3>;
 
@@ -32,7 +32,7 @@ void add_vertices(const PlacedMesh& placed, std::vector<Points>& by_node) {
     if (placed.owners[i] >= 0) by_node[at(placed.owners[i])].push_back(placed.positions[i]);
 }
 
-// Small pieces have few points of the surface: these have their vertices too.
+// Small pieces have few points on their surface, so their vertices are added.
 void take_vertices(const std::vector<Points>& vertices, OwnedSurface& out) {
   for (std::size_t node = 0; node < vertices.size(); ++node) {
     out.vertex_count += static_cast<int>(vertices[node].size());

@@ -9,7 +9,7 @@
 
 namespace contort {
 
-inline constexpr double kMaxModelCoordinate = 1e6;  // for vertices and joints, in the file's units
+inline constexpr double kMaxModelCoordinate = 1e6;  // greatest coordinate of vertices and joints, in the file's units
 
 // The box around points; empty at first.
 struct ModelBox {

@@ -12,16 +12,16 @@ namespace contort {
 
 namespace {
 
-constexpr double kMaxSpeed_deg_s = 3000.0;     // as `contort check` has it where nothing is known
-constexpr std::size_t kMostColliders = 64;     // of a part
-constexpr std::size_t kMostTriangles = 33000;  // of a piece of mesh: 100000 vertices
+constexpr double kMaxSpeed_deg_s = 3000.0;     // as in `contort check` for unknown joints
+constexpr std::size_t kMostColliders = 64;     // greatest number of a part
+constexpr std::size_t kMostTriangles = 33000;  // greatest number of a piece of mesh: 100000 vertices
 
 Vec3 rounded(const Vec3& v, double steps) {
   return {on_lattice(v.x, steps), on_lattice(v.y, steps), on_lattice(v.z, steps)};
 }
 double rounded_up(double value, double steps) { return std::ceil(value * steps) / steps; }
 
-// Names joints by what they are, so that actions of files fit all arms; "" for others.
+// Names joints by their roles, so that actions of files fit all arms; "" for other roles.
 std::string role_name(BoneRole role) {
   switch (role) {
     case BoneRole::upper_arm: return "shoulder";
@@ -34,8 +34,7 @@ std::string role_name(BoneRole role) {
   }
 }
 
-// The strength as a share of the figure's weight times its height: the strengths of the stock human, where 1 is 1247 N
-// m.
+// The strength as a fraction of the figure's weight times its height, from the stock human, where 1 is 1247 N m.
 double strength_share(BoneRole role) {
   switch (role) {
     case BoneRole::thigh: return 0.2;
@@ -68,7 +67,7 @@ ColliderShape tidy(ColliderShape shape) {
   return shape;
 }
 
-// The figure as parts see it: itself, or mirrored for those on the right.
+// The figure in which parts are described: the figure itself, or its mirror image for parts on the right.
 struct Seen {
   RiggedFigure figure;
   ClipPoses poses;
@@ -184,7 +183,7 @@ class PartWriter {
       MeshDesc piece{joint_of_[at(index)], TriangleMesh{}, out_.color};
       auto& triangles = std::get<TriangleMesh>(piece.shape);
       for (std::size_t i = first; i < std::min(first + 3 * kMostTriangles, mesh.indices.size()); ++i) {
-        // A mirrored triangle is seen from inside: two of its corners change places.
+        // A mirrored triangle would face inward, so two of its corners are swapped.
         const std::size_t corner = plan_.side != Side::right ? i : i - i % 3 + (3 - i % 3) % 3;
         const Vec3 p = rounded(mesh.positions_m[at(mesh.indices[corner])], 1e4);
         triangles.indices.push_back(static_cast<int>(triangles.positions_m.size()));
@@ -194,7 +193,7 @@ class PartWriter {
     }
   }
 
-  // Adds the place where a part hangs that begins with another bone.
+  // Adds the socket for a part that begins with another bone.
   void add_dock(const PartPlan& plan) {
     const int first = plan.bones.front(), parent = bone(first).parent;
     out_.sockets.push_back(
@@ -239,7 +238,7 @@ class PartWriter {
     out_.facing.push_back(std::move(facing));
   }
 
-  // The place of the standing end's lowest vertices, from the bone that carries the sole.
+  // The position of the lowest vertices of the leg's end, relative to the bone with the sole.
   Vec3 standing_point(int sole) const {
     const double band = lowest_below_m(figure_, sole) + 0.03 * figure_.height_m;
     Vec3 sum(0.0);
@@ -284,7 +283,7 @@ class PartWriter {
   int index_;
   PartDesc out_;
   std::set<std::string> taken_;
-  std::vector<std::string> joint_of_;  // by bone; "" is the fixed body
+  std::vector<std::string> joint_of_;  // joint of each bone; "" is the fixed body
 };
 
 Seen see(RiggedFigure figure, ClipPoses poses) {

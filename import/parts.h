@@ -11,7 +11,7 @@
 
 namespace contort {
 
-// The plan of one part: bones of one limb, the first of which docks at the carrier.
+// The plan of one part: bones of one limb. The first of them is attached to the carrier.
 struct PartPlan {
   std::string slot;  // "arm_left"
   std::string kind;  // "arm"
@@ -25,8 +25,8 @@ Result<std::vector<PartPlan>> cut(const RiggedFigure& figure);
 
 // The decisions about a bone, for the report.
 struct BoneReport {
-  std::string joint;    // "arm_left/elbow"; "root" for the first one
-  std::string carries;  // the joint that moves the body: the last one if several are in one place
+  std::string joint;    // "arm_left/elbow"; "root" for the first bone
+  std::string carries;  // the joint that moves the body; if several joints are at the same point, the last of them
   BoneJoint limits;
 };
 
@@ -34,8 +34,8 @@ struct CutFigure {
   std::vector<PartDesc> parts;
   CharacterDesc character;
   std::map<std::string, std::string> joint_of_node;  // by node label; without the root
-  std::map<std::string, std::string> carrier_of_node;  // by node label: the joint with which the node's skin moves;
-                                                       // includes the root
+  // By node label: the joint that moves the node's skin; includes the root.
+  std::map<std::string, std::string> carrier_of_node;
   std::vector<BoneReport> bones;
 };
 

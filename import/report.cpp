@@ -1,4 +1,4 @@
-// Tells people what was guessed.
+// Writes the report about guessed data.
 #include <cstdio>
 
 #include "import/import.h"
@@ -13,7 +13,7 @@ std::string number(double value, const char* format = "%.4g") {
   return text;
 }
 
-// Names of strangers, as text between backquotes of a table.
+// Makes untrusted names safe as text between backquotes of a table.
 std::string plain(const std::string& text, std::size_t most) {
   std::string out;
   for (const char c : text.substr(0, most))

@@ -19,9 +19,9 @@ namespace contort {
 namespace {
 
 constexpr std::size_t kMostSampledPoses = 100;
-constexpr std::size_t kMostSampledPairs = 1'000'000;  // in all poses
-constexpr std::size_t kMostAllowedPairs = 10000;      // of a character's file
-constexpr double kStrengthShare = 0.25;               // of weight times height, as for a spine
+constexpr std::size_t kMostSampledPairs = 1'000'000;  // greatest number of pairs in all poses together
+constexpr std::size_t kMostAllowedPairs = 10000;      // as many as a character's file may list
+constexpr double kStrengthShare = 0.25;               // as a fraction of weight times height, as for a spine
 
 double mass_of(const Linkage& linkage) {
   double mass_kg = 0.0;
@@ -39,7 +39,7 @@ double reach_of(const Linkage& linkage) {
   return *std::max_element(reach_m.begin(), reach_m.end());
 }
 
-// The library that the files make; what they say is what counts, not what we meant.
+// Parses the files that were made. These count, not the data from which they were made.
 Result<Character> build_robot(const ImportedRobot& robot) {
   Library library;
   for (const PartDesc& part : robot.parts) {
@@ -53,7 +53,7 @@ Result<Character> build_robot(const ImportedRobot& robot) {
   return build_character({robot.character.name, {}, {}}, library);
 }
 
-// Says which pairs of shapes the file lets touch, by the names of their bodies or by MJCF's groups.
+// Knows the pairs of shapes that the file allows to touch, by the names of their bodies or by MJCF's groups.
 class FilePairs {
  public:
   FilePairs(const RobotModel& robot, const Linkage& linkage, const RobotParts& parts) : linkage_(linkage) {
@@ -62,7 +62,7 @@ class FilePairs {
     for (const RobotCollider& collider : parts.colliders) colliders_[collider.name] = &collider;
   }
 
-  // Returns the reason; "" if their contact is a fault.
+  // Returns the reason for which two shapes may touch; "" if their contact is a fault.
   std::string reason(const std::string& a, const std::string& b) const {
     const LinkageShape &first = shape(a), &second = shape(b);
     const auto named = reasons_.find({std::min(first.body, second.body), std::max(first.body, second.body)});
@@ -92,7 +92,7 @@ void allow_by_file(const Character& character, const FilePairs& pairs, ImportedR
   out.pairs_of_file = static_cast<int>(out.character.allowed_pairs.size());
 }
 
-// Hulls and guessed capsules are larger than what they stand for: some overlap always.
+// Hulls and guessed capsules are larger than the real shapes, so some of them always overlap.
 void allow_unavoidable(const Character& character, ImportedRobot& out) {
   const std::size_t pairs = std::max<std::size_t>(character.judged_colliders().size(), 1);
   const std::size_t poses = std::clamp<std::size_t>(kMostSampledPairs / pairs, 1, kMostSampledPoses);
@@ -131,7 +131,8 @@ void take_over(const Linkage& linkage, const RobotModel& robot, const RobotParts
                         " moves freely, so it may be bolted to the ground; the root of a character moves freely.");
 }
 
-// Hinges in one point share the turn of their body, beginning with the first; else the body is at the last joint.
+// Several hinges at one point share their body's rotation, so the first of them is named. Otherwise it is the last
+// joint.
 std::string joint_of_body(const Linkage& linkage, std::size_t link, const std::string& last) {
   const RobotLink& own = linkage.links[link];
   for (std::size_t i = 0; i < own.joints.size(); ++i)
@@ -149,7 +150,7 @@ std::map<std::string, std::string> map_of_bodies(const ImportedRobot& robot, con
   return out;
 }
 
-// Joints that have several freedoms, or no name of their own, have no single value.
+// Joints with several degrees of freedom, or without a name of their own, have no single value and are left out.
 FileJoints values_of(const std::vector<RobotJointReport>& joints) {
   constexpr double kMostValue = 1e6;
   FileJoints out;

@@ -17,7 +17,7 @@ constexpr double kGreatestTravel_m = 10.0;
 constexpr double kUndeclaredSpeed_deg_s = 3000.0;  // as for other imported models
 constexpr double kUndeclaredSpeed_m_s = 10.0;
 
-// A robot's axes are +X forward, +Y left, +Z up; a character's are +Z forward, +X left, +Y up.
+// Converts from a robot's axes (+X forward, +Y left, +Z up) to a character's (+Z forward, +X left, +Y up).
 Vec3 turned(const Vec3& v) { return {v.y, v.z, v.x}; }
 Quat turned(const Quat& q) { return {q.w, q.y, q.z, q.x}; }
 Rigid turned(const Rigid& r) { return {turned(r.q), turned(r.p_m)}; }
@@ -43,7 +43,7 @@ ColliderShape turned(const ColliderShape& shape) {
   return std::visit(Turn{}, shape);
 }
 
-// The capsule that weighs as evenly as the body: of the ellipsoid with its mass and moments.
+// A capsule with about the same inertia: it approximates the ellipsoid with the body's mass and moments.
 std::optional<Capsule> capsule_of(const BodyInertia& body) {
   if (!(body.mass_kg > 0.0)) return {};
   const Eigen3 eigen = eigen_of(body.inertia_kg_m2);
@@ -71,7 +71,7 @@ class LinkageMaker {
   }
 
  private:
-  // The body's frame seen from the link that carries it, after the joints before it.
+  // Adds a body and its joints. Its frame is relative to the link that carries it.
   void add_body(const RobotBody& body) {
     Rigid link_from_body = {turned(body.parent_from_body.q), Vec3(0.0)};
     int link = -1;
@@ -90,7 +90,8 @@ class LinkageMaker {
     add_solids(body, out_.links[at(link)], link_from_body);
   }
 
-  // The rest pose of a character must be within all ranges; the middle of the range is it where the file's pose is not.
+  // The rest pose of a character must be within all ranges. If the file's pose is not, the middle of the range is used,
+  // or its only end.
   static double rest_of(const RobotJoint& joint) {
     if (joint.kind == RobotJointKind::ball) return 0.0;
     if (joint.low <= joint.at_rest && joint.at_rest <= joint.high) return joint.at_rest;

@@ -22,7 +22,7 @@ struct LinkageShape {
 
 // Bodies that move as one: the joints between them and their carrier, and everything that is fixed to the last joint.
 struct RobotLink {
-  std::string body{};               // name of the first body in the file
+  std::string body{};               // name in the file of the first body
   int parent = -1;                  // an earlier link; -1 for the root
   std::vector<JointDesc> joints{};  // without names and parents; none for the root
   std::vector<int> reports{};       // for each joint its index in Linkage::reports

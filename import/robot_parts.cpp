@@ -10,7 +10,7 @@ namespace contort {
 
 namespace {
 
-constexpr std::size_t kMostOfPart = 64;  // joints, colliders, and sockets, each
+constexpr std::size_t kMostOfPart = 64;  // greatest number of joints, of colliders and of sockets
 constexpr std::size_t kMostRobotParts = 64;
 constexpr std::size_t kMostSharedBytes = 20;
 constexpr double kGreatestInertia = 1e6;  // kg m^2
@@ -18,11 +18,12 @@ constexpr double kGreatestStrength = 1e7;
 
 struct Limb {
   std::string slot;
-  int carrier = -1;  // an earlier limb
+  int carrier = -1;  // index of an earlier limb
   std::vector<int> links;
 };
 
-// The name that a limb's joints begin with: "panda" of "panda_joint1" and "panda_finger"; of one joint, its own.
+// The common beginning of the names of a limb's joints: "panda" for "panda_joint1" and "panda_finger". A single joint
+// gives its whole name.
 std::string shared_beginning(const Linkage& linkage, const std::vector<int>& links) {
   std::vector<std::string> names;
   for (const int link : links)
@@ -81,7 +82,8 @@ std::string limb_name(const Linkage& linkage, const std::vector<int>& links) {
   return *kind == '\0' ? (shared.empty() ? std::string("limb") : shared) : std::string(kind) + "_" + shared;
 }
 
-// A branch of two or more joints is a limb of its own; so is what no longer fits into one part.
+// Cuts a linkage into limbs. A branch of two or more joints is a limb of its own; so are joints that no longer fit into
+// one part.
 class Cutter {
  public:
   Cutter(Linkage& linkage, std::string name, double strength_Nm)

@@ -1,4 +1,4 @@
-// Tells people what became of a robot's file.
+// Writes the report about an imported robot.
 #include "import/robot.h"
 #include "model/core/number_text.h"
 
@@ -6,7 +6,7 @@ namespace contort {
 
 namespace {
 
-// Names of strangers, as text between backquotes of a table.
+// Makes untrusted names safe as text between backquotes of a table.
 std::string safe_cell(const std::string& text, std::size_t most) {
   std::string out;
   for (const char c : text.substr(0, most))

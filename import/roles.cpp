@@ -17,10 +17,10 @@ bool is_arm_family(BoneFamily family) {
   return family == BoneFamily::upper_arm || family == BoneFamily::forearm || family == BoneFamily::arm;
 }
 
-// The families and roles that the two kinds of limbs are made of.
+// The families and roles in one of the two kinds of limbs.
 struct LimbRoles {
   bool (*in_chain)(BoneFamily);
-  BoneFamily first;  // the family that is certainly the upper bone
+  BoneFamily first;  // a bone of this family is certainly the upper one
   BoneRole upper;
   BoneRole middle;
   BoneRole end;
@@ -101,8 +101,8 @@ class RoleFinder {
     return length(end_of(figure_, chain[i]) - bone(chain[i]).position_m);
   }
 
-  // Chooses the longest pair of neighbours, unless a name says which is the upper one. A chain of three or more without
-  // an end of its own ends in it.
+  // Assigns the roles of a chain. The upper and middle bones are the longest pair of neighbours, unless a name decides.
+  // If a chain of three or more bones has no separate end, its third bone is the end.
   void give_limb_roles(std::vector<int> chain, const LimbRoles& limb) {
     int end = end_bone(chain.back(), limb);
     if (end < 0 && chain.size() >= 3) {
@@ -126,13 +126,14 @@ class RoleFinder {
                                                                                  : BoneRole::hock;
   }
 
-  // "shin.L.001" below "shin.L".
+  // Returns true for bones such as "shin.L.001" below "shin.L".
   bool shares_twist(int lower, int upper) const {
     const BoneFamily family = bone(lower).family;
     return family == bone(upper).family && (family == BoneFamily::shank || family == BoneFamily::forearm);
   }
 
-  // The next one, except where more bones have the upper one's name: "upper_arm.L.001" only shares its twist.
+  // The middle bone is the next one. If several bones have the upper one's name, it is the first one with another name:
+  // "upper_arm.L.001" only shares the twist.
   std::size_t middle_of(const std::vector<int>& chain, std::size_t upper, const LimbRoles& limb) const {
     std::size_t middle = upper + 1;
     while (middle + 1 < chain.size() && bone(chain[middle]).family == limb.first &&
@@ -141,7 +142,7 @@ class RoleFinder {
     return bone(chain[middle]).family == limb.first ? upper + 1 : middle;
   }
 
-  // Everything below a hand is its fingers, and below a foot its toes; below a head a head.
+  // Bones below a hand are fingers, below a foot toes, below a head the head.
   void pass_on_ends() {
     for (Bone& b : figure_.bones) {
       if (b.parent < 0) continue;
@@ -153,7 +154,7 @@ class RoleFinder {
     }
   }
 
-  // From the root to the head, or to the last of the spine; 0 without either.
+  // The vector from the root to the head, or to the last bone of the spine; 0 without either.
   Vec3 spine() const {
     Vec3 out(0.0);
     bool has_head = false;
@@ -191,7 +192,7 @@ class RoleFinder {
     return standing >= 2 && s.y < 0.7 * length(s);
   }
 
-  // Some files call forelegs legs too.
+  // Some files also call forelegs legs.
   bool stands_on_four_legs() const {
     std::array<int, 2> standing{};
     for (std::size_t b = 0; b < figure_.bones.size(); ++b) {

@@ -1,4 +1,5 @@
-// Finds the role of each bone. Families give the meaning of names, and chains tell which bone is the upper one.
+// Finds the role of each bone. Names give the family of a bone; its place in a chain decides, for example, whether it
+// is the upper one.
 #pragma once
 
 #include "import/figure.h"

@@ -20,7 +20,7 @@ constexpr std::size_t kMaxBones = 256;
 
 // ---- which skeleton
 
-// Skins that share joints are one skeleton: by skin the first skin of its skeleton.
+// Skins that share joints belong to one skeleton. Returns, for each skin, the first skin of its skeleton.
 std::vector<int> skeletons_of(const Asset& asset) {
   std::vector<int> first(asset.skins.size());
   std::vector<int> skin_of_node(asset.nodes.size(), -1);
@@ -66,7 +66,7 @@ std::vector<char> joints_of(const Asset& asset, const std::vector<int>& skeleton
   return is_joint;
 }
 
-// Nodes that own points, and those that carry such.
+// Marks nodes with points, and all nodes above them.
 std::vector<char> carriers(const Asset& asset, const OwnedSurface& surface) {
   std::vector<char> carries(asset.nodes.size(), 0);
   for (auto node = asset.order.rbegin(); node != asset.order.rend(); ++node) {
@@ -77,7 +77,7 @@ std::vector<char> carriers(const Asset& asset, const OwnedSurface& surface) {
   return carries;
 }
 
-// The nodes that are kept, each on the nearest one above it that is kept too.
+// The kept nodes as bones. Each is the child of its nearest kept ancestor.
 std::vector<Bone> bones_of(const Asset& asset, const std::vector<char>& keeps) {
   std::vector<Bone> bones;
   std::vector<int> bone_of(asset.nodes.size(), -1);
@@ -106,7 +106,7 @@ void note_other_skeletons(RiggedFigure& figure, const std::vector<int>& skeleton
                            std::to_string(skeleton) + ", and --skin chooses another.");
 }
 
-// Joints that own points, and those that carry such, in the file's units.
+// Keeps the joints with points, and all joints above them, in the file's units.
 RiggedFigure keep_bones(const Asset& asset, const std::vector<int>& skeletons, int skeleton,
                         const std::vector<Mat4>& world, OwnedSurface surface) {
   const std::vector<char> is_joint = joints_of(asset, skeletons, skeleton);

@@ -24,7 +24,8 @@ double area_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   return 0.5 * std::sqrt(glm::dot(normal, normal));
 }
 
-// The joint with the greatest sum of weights, each vertex counted by its share; -1 for none.
+// The joint with the greatest sum of weights at a point of a triangle, where each corner counts by its share; -1 for
+// none.
 int owner_between(const SkinnedMesh& mesh, const int* corners, const Vec3& shares) {
   std::array<int, 3 * kInfluences> joints{};
   std::array<double, 3 * kInfluences> sums{};
@@ -88,14 +89,14 @@ std::vector<SurfacePoint> spread_points(const SkinnedAsset& asset, const Skinned
                                         double quantum) {
   const std::vector<int>& nodes = asset.asset.skins[at(mesh.skin)].joints;
   std::vector<SurfacePoint> out;
-  double carried = 0.5 * quantum;  // area that has no point yet
+  double carried = 0.5 * quantum;  // area for which there is no point yet
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     const int* corner = &mesh.indices[i];
     const Vec3 a = placed.positions[at(corner[0])], b = placed.positions[at(corner[1])],
                c = placed.positions[at(corner[2])];
     const double area = area_of(a, b, c);
     const int rows = std::max(1, static_cast<int>(std::ceil(std::sqrt(area / quantum))));
-    // The triangle as rows * rows small ones of equal size, those that stand on their base and those on their tip.
+    // Divides the triangle into rows * rows small ones of equal size: some stand on their base, others on their tip.
     for (int row = 0; row < rows; ++row)
       for (int k = 0; k < 2 * row + 1; ++k) {
         carried += area / (static_cast<double>(rows) * rows);

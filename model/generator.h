@@ -1,6 +1,5 @@
-// A Generator is the system under test. It says what it offers (Manifest, Offers), and turns a Spec into an
-// Execution. The built-in one is generator/built_in.h. Search, checks, corpus, renders and server know only this
-// interface.
+// A Generator is the system under test. It declares its offers (Manifest, Offers), and turns a Spec into an Execution.
+// The built-in one is generator/built_in.h. Search, checks, corpus, renders and server know only this interface.
 #pragma once
 
 #include <memory>
@@ -20,8 +19,8 @@ namespace contort {
 
 inline constexpr int kMaxFrames = 36000;  // longest motion: ten minutes at 60 Hz
 
-// A program under test may refuse a request that its manifest allows. Such an issue has this code, and its text begins
-// like this, followed by the program's own words.
+// The code of an issue with which a program under test refuses a request that its manifest allows. Its text begins like
+// this, followed by the program's own words.
 inline constexpr std::string_view kRefusedCode = "guest.refused";
 inline constexpr std::string_view kRefusedText = "the generator refuses the request: ";
 
@@ -37,14 +36,14 @@ enum class Promise {
   aims,     // while it is in force the part faces a target, or points one of its points at it
 };
 
-// An event that a part brings about while an action moves it: interrupts can wait for it.
+// An event that a part can cause while an action moves it. Interrupts can wait for it.
 struct EventSource {
   Event event = Event::contact;
   int part = 0;
   bool operator==(const EventSource&) const = default;
 };
 
-// The least and the greatest number of frames that may be asked for.
+// The smallest and the greatest number of frames that may be requested.
 struct FrameRange {
   int least = 0;
   int most = 0;
@@ -68,10 +67,10 @@ struct OfferedAction {
   bool operator==(const OfferedAction&) const = default;
 };
 
-// The offered actions by part of the character; each list is in the manifest's order.
+// The offered actions, by part of the character; each list is in the manifest's order.
 using Offers = std::vector<std::vector<OfferedAction>>;
 
-// The features that specs may ask for. The fuzzer draws no others.
+// The features that specs may use. The fuzzer draws no others.
 struct Capabilities {
   bool interrupts = true;
   bool grounds = true;  // grounds that are not level
@@ -85,7 +84,7 @@ struct Manifest {
   std::string name;                  // "contort"
   const Library* library = nullptr;  // characters and their parts; never null, and outlives the generator
   std::vector<std::string> actions;  // the names of all actions
-  double rate_hz = 60.0;             // the frame rate of the motions that a search asks for
+  double rate_hz = 60.0;             // the frame rate for which a search draws specs
   std::string build{};               // version or commit of a generator that is a program of its own
   Capabilities can{};
 };
@@ -111,8 +110,8 @@ class Generator {
   // Refuses a spec with a code and a pointer into it, or returns how long its motion can be.
   virtual Result<Admission> admit(const Spec& spec) = 0;
 
-  // Runs a spec. Overwrites `execution` and reuses its memory. It refuses only what `admit` refuses: faults in a
-  // motion, NaN and infinite values included, are for checks to find.
+  // Runs a spec. Overwrites `execution` and reuses its memory. It refuses only specs that `admit` refuses: checks find
+  // faults in a motion, including NaN and infinite values.
   virtual Result<Done> run(const Spec& spec, Execution& execution) = 0;
 
   // Makes an equal generator for another thread.

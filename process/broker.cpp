@@ -21,15 +21,15 @@ namespace contort {
 
 namespace {
 
-constexpr int kLook_ms = 50;  // at limits of workers
+constexpr int kLook_ms = 50;  // time between two checks of the workers' limits
 const Issue kGone{"work.gone", "", "the worker processes have ended"};
 
-// Between front and broker: this, then as many bytes of text.
+// A message between front and broker: this header, then as many bytes of text.
 struct Header {
   std::uint64_t id = 0;
   std::uint64_t length = 0;
-  std::uint64_t kind = 0;  // to the broker an Urgency, from it a WorkerEnd
-  double worker_s = 0.0;   // from the broker
+  std::uint64_t kind = 0;  // to the broker an Urgency; from it a WorkerEnd
+  double worker_s = 0.0;   // time of the worker, sent by the broker
 };
 
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
@@ -45,7 +45,7 @@ bool receive_message(int socket, Header& header, std::string& text) {
   return receive_all(socket, text.data(), text.size());
 }
 
-// The broker's own process: takes tasks from the front, gives them to idle workers, urgent ones first.
+// The process of the broker. It takes tasks from the front and gives them to idle workers, urgent ones first.
 class BrokerProcess {
  public:
   BrokerProcess(int socket, const BrokerLimits& limits, WorkerPool::Work work)
@@ -53,7 +53,7 @@ class BrokerProcess {
         pool_(limits.workers, limits.each, std::move(work)),
         given_(static_cast<std::size_t>(limits.workers)) {}
 
-  // Until the front hangs up.
+  // Runs until the front closes the connection.
   void run() {
     while (take_tasks()) {
       give_out();
@@ -131,7 +131,7 @@ Broker::Broker(const BrokerLimits& limits, WorkerPool::Work work) : limits_(limi
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(0);
     ::close(ends[0]);
-    ::signal(SIGINT, SIG_IGN);  // the front says when it is over
+    ::signal(SIGINT, SIG_IGN);  // the front decides when to end
     ::signal(SIGTERM, SIG_IGN);
     BrokerProcess(ends[1], limits, std::move(work)).run();
     ::_exit(0);

@@ -20,9 +20,9 @@ namespace {
 
 constexpr useconds_t kLook_us = 50'000;
 
-// A child tells the state of its share here, in memory that both see.
+// The state of a child's share of calls, in shared memory.
 struct Place {
-  std::atomic<int> at{0};    // the index that is worked on
+  std::atomic<int> at{0};    // index of the present call
   std::atomic<int> done{0};  // calls that returned
 };
 
@@ -46,7 +46,7 @@ class Places {
 [[noreturn]] void run_share(Place& place, int first, int step, int count, int seconds,
                             const std::function<void(int)>& work, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);  // it died before that call
+  if (::getppid() != parent) ::_exit(1);  // the parent died before that call
   try {
     for (int i = first; i < count; i += step) {
       place.at = i;

@@ -1,4 +1,4 @@
-// The one clock below the command line: for watchdogs and time budgets. The result of a case never depends on it.
+// The only clock below the command line: for watchdogs and time budgets. The result of a case never depends on it.
 #pragma once
 
 namespace contort {

@@ -9,11 +9,11 @@
 
 namespace contort {
 
-// A sentence without its full stop: "the program ended: exit 1; it printed: ...". It has only the last characters that
-// the program printed, because errors come last.
+// A sentence without its full stop: "the program ended: exit 1; it printed: ...". It quotes only the last characters of
+// the output, because errors come last.
 std::string describe(const Ending& ending, std::size_t most_printed = kMostPrinted);
 
-// Work throws this when a program that it needs has ended, so that the work has no result. A worker pool and `isolate`
+// Thrown by work when a program that it needs has ended, so that the work has no result. A worker pool and `isolate`
 // report it as if the process of the work had ended in the same way.
 class ProgramEnded : public std::exception {
  public:
@@ -37,7 +37,8 @@ auto unless_it_ends(const Work& work) -> decltype(work()) {
   }
 }
 
-// One line of text for a socket or shared memory, and back. Text that is no ending gives a crash without a signal.
+// Prints an ending as one line of text for a socket or shared memory, and parses it. Invalid text gives a crash without
+// a signal.
 std::string print_ending(const Ending& ending);
 Ending parse_ending(const std::string& text);
 

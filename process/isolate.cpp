@@ -21,11 +21,12 @@ namespace contort {
 
 namespace {
 
-constexpr int kLookEvery_ms = 5;  // at its memory
-constexpr char kEndMark = '.';    // after the result: a child that leaves by exit(0) half way has none
-constexpr char kEndedMark = '!';  // after the ending of a program that the work needed
+constexpr int kLookEvery_ms = 5;  // time between two checks of the child's memory
+constexpr char kEndMark = '.';    // follows the result; a child that leaves early by exit(0) writes none
+constexpr char kEndedMark = '!';  // follows the ending of a program that the work needed
 
-// Whatever handlers we have, or a sanitizer has, a crash must end the child by its signal; Ctrl-C is for us to answer.
+// Restores the default handlers, so that a crash ends the child by its signal whatever handlers we or a sanitizer set.
+// The parent handles Ctrl-C.
 void reset_signals() {
   for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS, SIGALRM, SIGPIPE, SIGTERM})
     ::signal(number, SIG_DFL);
@@ -51,21 +52,21 @@ std::string outcome_of(const std::function<std::string()>& work) {
   }
 }
 
-// noexcept: an exception must not unwind into the caller's copy of the stack; it ends the child by SIGABRT.
+// noexcept: an exception ends the child by SIGABRT and must not unwind into the caller's copy of the stack.
 [[noreturn]] void live_as_child(const std::function<std::string()>& work, const Isolation& isolation, int pipe,
                                 pid_t parent) noexcept {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);  // it died before that call
+  if (::getppid() != parent) ::_exit(1);  // the parent died before that call
   reset_signals();
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
   if (isolation.silent) ::dup2(::open("/dev/null", O_WRONLY | O_CLOEXEC), STDERR_FILENO);
-  ::alarm(static_cast<unsigned>(isolation.seconds));  // the kernel's clock ends it, whatever it does
+  ::alarm(static_cast<unsigned>(isolation.seconds));  // the kernel's clock ends even a child that hangs
   write_all(pipe, outcome_of(work));
   ::_exit(0);
 }
 
-// The output of the child until it ends or, if it takes too much memory, is ended.
+// The output of the child until it ends, or is killed because it takes too much memory.
 struct Heard {
   std::string text;
   bool too_large = false;

@@ -17,7 +17,7 @@ struct Isolation {
 
 inline constexpr std::size_t kMostPrinted = 4000;
 
-// The way in which the work came to its end.
+// The way in which the work ended.
 struct Ending {
   enum class Kind { finished, crash, timeout, memory };
   Kind kind = Kind::finished;

@@ -9,11 +9,11 @@ namespace contort {
 
 namespace {
 
-// Between fork and exec, in a process that has other threads: nothing but calls to the kernel. It may have children,
-// which are of its group and end with it.
+// Runs between fork and exec, in a copy of a process with other threads, so it may only call the kernel. The program
+// and its children form a process group, which ends together.
 [[noreturn]] void become(char* const* arguments, const Streams& streams, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);  // it died before that call
+  if (::getppid() != parent) ::_exit(1);  // the parent died before that call
   ::setpgid(0, 0);
   sigset_t none;
   ::sigemptyset(&none);
@@ -33,7 +33,7 @@ int launch(const std::vector<std::string>& command, const Streams& streams) {
   const pid_t parent = ::getpid();
   const pid_t pid = ::fork();
   if (pid == 0) become(arguments.data(), streams, parent);
-  if (pid > 0) ::setpgid(pid, pid);  // whichever of the two comes first
+  if (pid > 0) ::setpgid(pid, pid);  // both processes set the group, because either may run first
   return pid;
 }
 

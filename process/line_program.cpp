@@ -20,7 +20,7 @@ namespace contort {
 namespace {
 
 constexpr int kPoll_ms = 100;
-constexpr char kCannotStart[] = "exit 127";  // as of a program that could not be run
+constexpr char kCannotStart[] = "exit 127";  // ending of a program that could not be started
 
 bool is_ready(int socket, short events, int milliseconds) {
   pollfd waiting{socket, events, 0};
@@ -32,7 +32,8 @@ std::string ending_of_status(int status) {
   return "exit " + std::to_string(WEXITSTATUS(status));
 }
 
-// One line of ASCII: a program may print anything, and its last words go to terminals and into files.
+// Replaces all bytes that are not printable ASCII, because a program may print anything, and its last output goes to
+// terminals and into files.
 std::string legible(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -73,7 +74,7 @@ LineProgram::LineProgram(const std::vector<std::string>& command, const WorkerLi
 }
 
 LineProgram::~LineProgram() {
-  if (pid_ >= 0) (void)end_as(Ending::Kind::timeout);  // without waiting for it to end by itself
+  if (pid_ >= 0) (void)end_as(Ending::Kind::timeout);  // kills it at once
   close_all({socket_, messages_, listener_, connection_});
 }
 
@@ -88,7 +89,7 @@ void LineProgram::send_line(const std::string& text) {
     if (is_stuck_ = steady_s() > deadline_s; is_stuck_) return;
     is_ready(stream(), POLLIN | POLLOUT, kPoll_ms);
     hear_messages();
-    if (is_ready(stream(), POLLIN, 0) && !receive()) return;  // it may have to be rid of its output first
+    if (is_ready(stream(), POLLIN, 0) && !receive()) return;  // the program may only read after its output was taken
   }
 }
 
@@ -113,7 +114,7 @@ void LineProgram::hear_messages() {
   }
 }
 
-// True where there is something to read on the stream that counts, or it was closed.
+// Returns true if the program's stream has data or was closed.
 bool LineProgram::wait_for_input(int milliseconds) {
   std::array<pollfd, 4> waiting{{{stream(), POLLIN, 0}, {listener_, POLLIN, 0}, {messages_, POLLIN, 0}, {-1, 0, 0}}};
   if (connection_ >= 0) waiting[3] = {socket_, POLLIN, 0};
@@ -138,7 +139,7 @@ bool LineProgram::take_line(std::string& line) {
   return true;
 }
 
-// False where the program has closed its output or writes without an end.
+// Returns false if the program has closed its output, or writes too much without a line end.
 bool LineProgram::receive() {
   std::array<char, 1 << 16> block;
   const ssize_t got = ::recv(stream(), block.data(), block.size(), MSG_DONTWAIT);
@@ -187,8 +188,8 @@ Ending LineProgram::end_because(const std::string& words) {
   return ending_;
 }
 
-// A program that crashed has closed its socket a moment before it can be waited for; one that closed it and goes on is
-// killed after that moment.
+// Waits a moment for a program that closed its socket: if it crashed, its end follows at once. If it continues, it is
+// killed.
 Ending LineProgram::end_as(Ending::Kind kind) {
   int status = 0;
   pid_t waited = 0;

@@ -18,29 +18,29 @@ class LineProgram {
  public:
   static constexpr std::size_t kMostLine = std::size_t{64} << 20;  // bytes; a program that writes more is ended
 
-  // The program is started at once and is killed when this object or the calling thread ends. If it cannot be started,
-  // the first read_line() says so. With `listens`, it may connect to a port of ours on 127.0.0.1, which it finds as
-  // CONTORT_PORT in its environment, and speak there from then on; what it writes to its standard output is then kept
-  // as a message. CONTORT_TOKEN is a secret word by which the program is recognised.
+  // Starts the program at once. It is killed when this object or the calling thread ends. If it cannot be started, the
+  // first read_line() reports that. With `listens`, the program may connect to a port of ours on 127.0.0.1
+  // (CONTORT_PORT in its environment) and communicate there from then on; its standard output is then kept as a
+  // message. The program proves its identity by the secret word CONTORT_TOKEN.
   LineProgram(const std::vector<std::string>& command, const WorkerLimits& limits, Messages messages,
               bool listens = false);
   ~LineProgram();
   LineProgram(const LineProgram&) = delete;
   LineProgram& operator=(const LineProgram&) = delete;
 
-  // Sends the text, which has no line end, and a line end. If the program does not take it within the time limit or has
-  // ended, the next reading says so.
+  // Sends the text, which has no line end, and a line end. If the program does not accept it within the time limit or
+  // has ended, the next read reports that.
   void send_line(const std::string& text);
 
-  // Waits for a line, with a time limit of its own if `seconds` is not 0: `finished` with the line as the result.
-  // Otherwise the program has ended, or took more time or memory than allowed and was killed; each further call then
-  // gives the same ending. `on_wait` is called about ten times a second.
+  // Waits for a line, with a time limit of its own if `seconds` is not 0. Returns `finished` with the line as the
+  // result. Otherwise the program has ended, or exceeded a limit of time or memory and was killed; all further calls
+  // return the same ending. `on_wait` is called about ten times a second.
   Ending read_line(const std::function<void()>& on_wait = {}, double seconds = 0.0);
 
   // Waits for a number of bytes, at most kMostLine, in the same way.
   Ending read_bytes(std::size_t count);
 
-  // Ends the program as if it had crashed, with these words as its signal, and gives the ending.
+  // Ends the program as if it had crashed, with this text as its signal, and returns the ending.
   Ending end_because(const std::string& words);
 
   // Keeps a text as if the program had printed it.

@@ -20,9 +20,9 @@ namespace contort {
 
 namespace {
 
-constexpr std::size_t kMostText = 1 << 20;  // of what is printed the end is kept
+constexpr std::size_t kMostText = 1 << 20;  // bytes; only the end of the output is kept
 constexpr int kSignalCheck_ms = 50;
-constexpr int kFailedInForeground = 3;  // the command line's code of an internal error
+constexpr int kFailedInForeground = 3;  // exit code of the command line for an internal error
 
 struct Pipe {
   std::array<int, 2> ends{-1, -1};
@@ -34,7 +34,7 @@ struct Pipe {
   void close_writer() { ::close(ends[1]), ends[1] = -1; }
 };
 
-// Whether there may be more.
+// Returns true if there may be more to read.
 bool read_some(int file, std::string& text) {
   char buffer[16384];
   const ssize_t got = ::read(file, buffer, sizeof buffer);
@@ -95,7 +95,7 @@ Result<int> run_in_foreground(const std::vector<std::string>& command) {
   const pid_t child = ::fork();
   if (child < 0) return Issue{"render.no_process", "", std::string("cannot start a process: ") + std::strerror(errno)};
   if (child == 0) {
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody would wait for its output
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // without us, nothing would wait for its output
     if (::getppid() != parent) ::_exit(kFailedInForeground);
     ::execv(arguments[0], arguments.data());
     std::fprintf(stderr, "contort: render.no_program: cannot start %s: %s\n", arguments[0], std::strerror(errno));

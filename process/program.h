@@ -1,4 +1,4 @@
-// Other programs, run to their end.
+// Runs other programs to their end.
 #pragma once
 
 #include <functional>
@@ -11,19 +11,20 @@ namespace contort {
 
 struct ProgramResult {
   int code = 0;         // exit code; 128 + signal
-  bool killed = false;  // it was ended, because it took too long or `stop` asked for that
+  bool killed = false;  // true if it was ended because it took too long or `stop` returned true
   std::string out;      // the last output on each stream
   std::string err;
   double cpu_s = 0.0;  // CPU time of the program, and of its children that ended before it
 };
 
-// Arguments as they are, without a shell. Ends the program after `seconds`, or when `stop` says so; it also ends when
-// the thread that calls this does, in whatever way. Code work.no_process.
+// Runs a program without a shell. It is ended after `seconds`, when `stop` returns true, or when the calling thread
+// ends. Code work.no_process.
 Result<ProgramResult> run_program(const std::vector<std::string>& command, double seconds,
                                   const std::function<bool()>& stop);
 
-// Waits for a program that reads and writes where this process does, and gives its exit code; 3 where a signal ended it
-// or it could not be started, of which it says why on stderr. It ends when this process does. Code render.no_process.
+// Runs a program that shares the standard streams of this process, and returns its exit code. It returns 3, and prints
+// the reason to stderr, if a signal ended the program or it could not be started. The program ends when this process
+// does. Code render.no_process.
 Result<int> run_in_foreground(const std::vector<std::string>& command);
 
 }  // namespace contort

@@ -28,9 +28,9 @@ namespace {
 
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
-constexpr double kLookEvery_s = 0.05;  // at limits: a look costs a file of /proc
+constexpr double kLookEvery_s = 0.05;  // time between two checks of limits, each of which reads a file of /proc
 
-// Messages are a length and as many bytes.
+// A message is a length, followed by that many bytes.
 using Length = std::uint64_t;
 
 bool send_message(int socket, const std::string& text) {
@@ -49,7 +49,7 @@ bool receive_message(int socket, std::string& text) {
   return receive_all(socket, text.data(), length);
 }
 
-// Takes the first whole message out of what came in so far.
+// Takes the first complete message from the received bytes.
 std::optional<std::string> take_message(std::string& received) {
   Length length = 0;
   if (received.size() < sizeof length) return std::nullopt;
@@ -114,13 +114,13 @@ WorkerPool::~WorkerPool() {
 void WorkerPool::start(Worker& worker) {
   int ends[2];
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) fail("no socket for a worker");
-  std::fflush(nullptr);  // else the child would print it again
+  std::fflush(nullptr);  // otherwise the child would print the buffered text again
   const pid_t parent = ::getpid();
   worker.pid = ::fork();
   if (worker.pid < 0) fail("no process for a worker");
   if (worker.pid == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != parent) ::_exit(0);  // it died before we asked to be told
+    if (::getppid() != parent) ::_exit(0);  // the parent died before that call
     for (const Worker& other : workers_)
       if (other.socket >= 0) ::close(other.socket);
     ::close(ends[0]);
@@ -132,9 +132,9 @@ void WorkerPool::start(Worker& worker) {
   worker.received.clear();
 }
 
-// In the child. An interrupt at the terminal goes to the whole group; the pool decides what it means. noexcept: an
-// exception ends the child by SIGABRT; it must not unwind into the caller's copy of the stack, where the pool's
-// destructor would kill whom it takes for its workers, the whole process group among them.
+// Runs in the child. Ctrl-C at the terminal goes to the whole group, and the pool reacts to it, so the child ignores
+// it. noexcept: an exception ends the child by SIGABRT. If it unwound into the caller's copy of the stack, the pool's
+// destructor would kill processes, even the whole process group.
 void WorkerPool::serve(int socket, WorkerSlot& slot) noexcept {
   ::signal(SIGINT, SIG_IGN);
   ::signal(SIGTERM, SIG_DFL);
@@ -166,7 +166,7 @@ void WorkerPool::give(int index, const std::string& task, double patience) {
   worker.patience = patience;
   worker.beats = worker.slot->beats();
   worker.since_s = steady_s();
-  send_message(worker.socket, task);  // where that fails the worker is dead, and wait() will see it
+  send_message(worker.socket, task);  // if sending fails the worker has ended, and wait() will notice it
 }
 
 std::optional<WorkerEvent> WorkerPool::wait(int milliseconds, int other) {
@@ -209,7 +209,7 @@ std::optional<WorkerEvent> WorkerPool::over_limit(int index) {
   return std::nullopt;
 }
 
-// Ends the worker where it has not ended by itself, and starts another in its place.
+// Ends the worker if it still runs, and starts another in its place.
 WorkerEvent WorkerPool::bury(int index, WorkerEnd end) {
   Worker& worker = workers_[static_cast<std::size_t>(index)];
   if (end != WorkerEnd::crashed) ::kill(worker.pid, SIGKILL);

@@ -21,12 +21,12 @@ class WorkerSlot {
 
   // Notes the present work, before it begins. A note that is too long is replaced by an empty one.
   void note(std::string_view text);
-  // A sign of life: the time limit counts from here.
+  // Restarts the time limit.
   void beat() { beats_.fetch_add(1, std::memory_order_relaxed); }
 
   std::string note() const { return std::string(text_, length_); }
 
-  // Says how a program ended on which the work depended, before the worker ends (ended.h).
+  // Notes how a program ended on which the work depended, before the worker ends (ended.h).
   void end(std::string_view ending);
   std::string ended() const { return std::string(ending_, ending_length_); }
   std::uint64_t beats() const { return beats_.load(std::memory_order_relaxed); }
@@ -40,7 +40,7 @@ class WorkerSlot {
 };
 
 struct WorkerLimits {
-  double seconds = 10.0;                       // between two beats
+  double seconds = 10.0;                       // longest time between two beats
   std::int64_t bytes = std::int64_t{4} << 30;  // resident memory
 };
 
@@ -51,7 +51,7 @@ struct WorkerEvent {
   WorkerEnd end = WorkerEnd::replied;
   std::string text;  // the reply; for a crash the signal, "SIGSEGV", or "exit 3"
   std::string note;  // if it did not reply: the last note of its work
-  std::string printed{};  // the last output of a program that ended and took the worker with it
+  std::string printed{};  // last output of a program that ended and made the worker end
 };
 
 // The outcome must not be a reply.
@@ -72,7 +72,7 @@ class WorkerPool {
 
   std::optional<int> idle_worker() const;
   int busy() const;
-  // `patience` times the limit of seconds is allowed.
+  // The time limit is multiplied by `patience`.
   void give(int worker, const std::string& task, double patience = 1.0);
 
   // Returns the next worker that replied or ended, or nothing if none does within the time. Returns at once if there is

@@ -11,14 +11,14 @@ constexpr int kSides = 12;
 constexpr double kShaftRadius_m = 0.011;
 constexpr double kHeadRadius_m = 0.030;
 constexpr double kHeadLength_m = 0.065;
-constexpr double kHeadShare = 0.6;  // of a short arrow's length, so that it still has a shaft
+constexpr double kHeadShare = 0.6;  // part of a short arrow's length, so that it still has a shaft
 
 Vec3 on_circle(int side, double radius_m, double height_m) {
   const det::SinCos turn = det::sincos(2.0 * kPi * (side % kSides) / kSides);
   return {radius_m * turn.sin, height_m, radius_m * turn.cos};
 }
 
-// Corners counter-clockwise seen from outside.
+// The corners must be counter-clockwise seen from outside.
 void add_triangle(Triangles& out, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 normal = unit_or(glm::cross(b - a, c - a), Vec3(0, 1, 0));
   for (const Vec3& corner : {a, b, c}) {

@@ -12,7 +12,7 @@ namespace contort {
 
 namespace {
 
-constexpr int kEnough_permille = 990;  // of its motions: an action with as many clean ones counts as clean
+constexpr int kEnough_permille = 990;  // an action with at least this share of clean motions counts as clean
 
 bool is_clean(const AuditPageRow& row) { return std::int64_t{1000} * row.clean >= std::int64_t{kEnough_permille} * row.draws; }
 
@@ -61,8 +61,8 @@ std::string table_html(std::span<const AuditPageRow* const> rows) {
   return html + "</tbody></table></div>\n";
 }
 
-// Characters in their order in the page, and in each the rows with the smallest share of clean motions first, then those
-// with most unmet requests.
+// The rows by character, in the page's order. For each character, rows with the smallest share of clean motions come
+// first, then those with most unmet requests.
 std::vector<std::vector<const AuditPageRow*>> by_character(const std::vector<AuditPageRow>& rows) {
   std::vector<std::vector<const AuditPageRow*>> groups;
   for (const AuditPageRow& row : rows) {

@@ -15,14 +15,14 @@ struct AuditPageRow {
   int unmet = 0;       // motions with a request that was not met
   int still = 0;       // motions in which nothing moved
   std::string details;  // "self_collision 2; unmet: joint_speed 5"
-  std::string spec;     // path of the worst motion's spec, relative to the page; "" if every motion is clean and its
-                        // request met
+  // Path of the worst motion's spec, relative to the page; "" if all motions are clean and meet their requests.
+  std::string spec;
   std::string picture;  // path of its picture; the same
 };
 
 struct AuditPage {
-  std::string command;  // the command that makes the page again
-  std::string tool;     // the version
+  std::string command;  // command that makes the page again
+  std::string tool;     // version of Contort
   std::vector<AuditPageRow> rows;
 };
 

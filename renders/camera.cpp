@@ -8,9 +8,9 @@
 namespace contort {
 namespace {
 
-constexpr double kTanHalfHeight = 0.25;  // 28 degrees: long enough a lens that limbs near the camera do not swell.
-constexpr double kMargin = 1.07;         // Picture edge over figure edge.
-constexpr double kClearance_m = 0.6;     // Between the eye and the nearest point.
+constexpr double kTanHalfHeight = 0.25;  // 28 degrees: with a wider lens, limbs near the camera would look too large.
+constexpr double kMargin = 1.07;         // Size of the picture relative to the figure.
+constexpr double kClearance_m = 0.6;     // Least distance between the eye and the nearest point.
 constexpr double kElevation_rad = 14.0 * kRadPerDeg;
 constexpr double kFollowGain = 0.75;
 
@@ -45,7 +45,7 @@ Extent extent_along(std::span<const Vec3> points, const Vec3& axis) {
   return extent;
 }
 
-// From the eye to the middle of the frame that is farthest away: where a figure is drawn smallest.
+// The distance of the eye from the middle of the farthest frame, in which the figure is smallest.
 double farthest(const Camera& camera, std::span<const std::vector<Vec3>> frames) {
   double distance = 0.0;
   for (const std::vector<Vec3>& points : frames)

@@ -47,7 +47,7 @@ Camera moved(Camera camera, const Vec3& by_m);
 // Returns the view from an azimuth, at the common elevation.
 View view_from(double azimuth_rad);
 
-// 12 azimuths, 30 degrees apart, in order of preference: from the front left corner outward.
+// Returns 12 azimuths, 30 degrees apart, in order of preference: from the front left corner outward.
 std::vector<View> probe_views();
 
 }  // namespace contort

@@ -21,13 +21,14 @@ namespace {
 using json_fields::Json;
 using namespace scene;
 
-// "" for what no .glb can hold, such as a motion that is not finite: its margins are shown all the same.
+// Returns "" for motions that a .glb cannot hold, such as those that are not finite. Their margins are shown
+// nevertheless.
 std::string glb_text(const Character& character, const Motion& motion) {
   const Result<std::vector<std::byte>> glb = write_glb(character, motion, {});
   return glb ? to_base64(gzipped(*glb)) : "";
 }
 
-// The motion that dynamics was to follow; without frames where there was none.
+// The target motion of dynamics; without frames if there is none.
 Motion target_of(const Motion& motion) {
   Motion target;
   if (motion.response.target_root.empty()) return target;
@@ -55,7 +56,7 @@ Json unjudged_checks_json(const std::vector<NotJudged>& checks) {
   return list;
 }
 
-// The value and the limit of a finding; "" if its margin does not tell them.
+// The value and the limit of a finding; "" if they do not follow from its margin.
 std::string measured_in(const Character& character, const CheckSettings& settings, const Finding& about) {
   if (about.first_frame < 0) return "";
   const auto measured = measured_of(character, settings, about.check, about.subject, about.worst_margin);

@@ -1,5 +1,5 @@
-// Makes the data of a failure for the viewer: its motions with everything that happened in them,
-// contort.report_case/1 (docs/reference/report.md).
+// Makes the data of a failure for the viewer, contort.report_case/1: its motions with all their events
+// (docs/reference/report.md).
 #pragma once
 
 #include <span>
@@ -18,7 +18,7 @@ struct ShownCase {
   const Case& stored;
 };
 
-// The number of margin curves of a motion: that of the failure, and those nearest to their limits.
+// The number of margin curves of a motion: the curve of the failure, and those nearest to their limits.
 inline constexpr std::size_t kMostCurves = 16;
 
 // Returns JSON in one line, safe inside of a <script>. The first of `shown` describes the failure. `strip` is the
@@ -27,7 +27,7 @@ inline constexpr std::size_t kMostCurves = 16;
 Result<std::string> case_data(const std::string& key, std::span<const ShownCase> shown, Generator& generator,
                               const CheckSettings& settings, const std::string& strip = "");
 
-// Returns the data of a case that cannot be shown: a sentence that says why.
+// Returns the data of a case that cannot be shown, with a sentence about the reason.
 std::string case_problem(const std::string& key, const std::string& why);
 
 // Converts the data to the file that a page loads (renders/page_call.h), and back; "" if the text is no such file.

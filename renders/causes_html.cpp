@@ -17,11 +17,11 @@ namespace contort {
 namespace {
 
 constexpr std::size_t kFirstCauses = 10;   // the others are folded away
-constexpr std::size_t kMostCauses = 30;    // of a page, which has to stay small
+constexpr std::size_t kMostCauses = 30;    // of a page, which must stay small
 constexpr std::size_t kMostFailures = 10;  // of a cause
 constexpr std::size_t kMostNames = 4;      // of characters
 
-// The rows of the failures by the ids of their buckets.
+// The rows of failures, by the id of their bucket.
 using RowsById = std::map<std::string_view, const ReportRow*>;
 
 RowsById rows_by_id(const ReportModel& model) {
@@ -45,7 +45,7 @@ bool opens_case(const ReportCause& cause, const PageFiles& inside) {
   return !cause.key.empty() && (inside.empty() || inside.contains("cases/" + cause.key + ".json"));
 }
 
-// The picture of its deepest case.
+// The picture of the cause's deepest case.
 std::string cause_picture(const ReportCause& cause, const std::vector<const ReportRow*>& rows,
                           const PageFiles& inside) {
   const auto deepest = std::ranges::find(rows, cause.key, &ReportRow::key);
@@ -53,16 +53,16 @@ std::string cause_picture(const ReportCause& cause, const std::vector<const Repo
   return thumb.empty() ? "<span class='thumb'></span>" : thumb;
 }
 
-// The value and the limit of its deepest case, below the headline.
+// The value and the limit of the cause's deepest case, below the headline.
 std::string measured_html(const ReportCause& cause, const std::vector<const ReportRow*>& rows) {
   const auto deepest = std::ranges::find(rows, cause.key, &ReportRow::key);
   if (deepest == rows.end() || (*deepest)->measured.empty()) return "";
   return "<span class='worst'>at worst " + html_text((*deepest)->measured) + "</span>";
 }
 
-// ---- unfolded
+// ---- the unfolded part of a row
 
-// A line for each character on which somebody has learned when it fails.
+// A line for each character for which a rule was learned.
 std::string conditions_html(const ReportCause& cause) {
   std::string out;
   for (const auto& [character, sentence] : cause.conditions)
@@ -142,7 +142,7 @@ std::string row_html(const ReportCause& cause, const ReportModel& model, const R
          unfolded_html(cause, rows, inside) + "</td></tr>\n";
 }
 
-// "3 are", of so many.
+// Text such as "3 are".
 std::string new_text(std::int64_t fresh, std::int64_t all) {
   if (fresh == 0) return all == 1 ? "it is not" : "none is";
   if (fresh == all) return all == 1 ? "it is" : "all are";

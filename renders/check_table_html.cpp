@@ -16,9 +16,9 @@ namespace contort {
 
 namespace {
 
-constexpr std::size_t kMostColumns = 8;  // characters; the failures of others are only in the total
+constexpr std::size_t kMostColumns = 8;  // the failures of further characters are only in the total
 
-// The failures of a check by character.
+// The failures of a check, by character.
 struct CheckRow {
   std::string check;
   std::map<std::string, std::int64_t> failures;
@@ -57,7 +57,7 @@ std::vector<std::string> columns_of(const std::vector<CheckRow>& rows) {
   return names;
 }
 
-// The runs count the cases of each character as "character human".
+// Runs count the cases of each character under the label "character human".
 std::string cases_of(const ReportModel& model, const std::string& character) {
   const std::string label = "character " + character;
   const auto found = std::ranges::find_if(model.tested, [&](const auto& row) { return row.first == label; });

@@ -9,23 +9,23 @@
 
 namespace contort {
 
-// Texts come from other people's files.
+// A row of the page. Its texts are untrusted.
 struct ClipsPageRow {
   std::string file;
   std::string clip;
-  std::string check;     // of the worst finding
+  std::string check;     // check of the worst finding
   std::string subject;
   std::string measured;  // "turns 3 600 °/s, limit 733 °/s"
   std::string when;      // "1.583 s"; "" if the finding has no time
   std::string counts;    // "joint_range 15, pop 3"
-  StickFigure figure{};  // at that time; no points: it cannot be drawn
-  std::string command;   // that judges the clip again
+  StickFigure figure{};  // figure at that time; without points: it cannot be drawn
+  std::string command;   // command that judges the clip again
 };
 
 struct ClipsPage {
-  std::string command;  // that makes the page again
-  std::string tool;     // the version
-  std::string character;  // "" for none
+  std::string command;  // command that makes the page again
+  std::string tool;     // version of Contort
+  std::string character;  // name of the character; "" for none
   std::size_t clips = 0;
   std::size_t failing = 0;
   std::size_t findings = 0;
@@ -34,7 +34,7 @@ struct ClipsPage {
   std::vector<std::string> unreadable;  // files, each with its reason
 };
 
-// What a page has at most; it counts the others.
+// The limits of a page; further rows are only counted.
 inline constexpr std::size_t kMostClipRows = 1000, kMostClipFigures = 200, kMostClipNames = 1000;
 
 // Returns a page without scripts, in one file.

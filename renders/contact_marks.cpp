@@ -8,16 +8,16 @@
 namespace contort {
 namespace {
 
-constexpr double kDot = 0.011;  // radii, in sizes of the figure
+constexpr double kDot = 0.011;  // radii of dots, as fractions of the figure's size
 constexpr double kLine = 0.005;
-constexpr double kRim = 0.004;  // is wider by
+constexpr double kRim = 0.004;  // additional radius of the rim
 
 Solid placed(const Character& character, std::span<const Rigid> world, int collider) {
   const Collider& own = character.colliders()[at(collider)];
   return moved(world[at(own.joint)], solid_of(own));
 }
 
-// Keeps the nearest, or deepest, of what it is shown.
+// Keeps the nearest, or deepest, of the pairs that it gets.
 struct Nearest {
   std::optional<NearestPoints> found;
   void add(const Solid& a, const Solid& b) {
@@ -30,7 +30,7 @@ bool holds(const std::vector<int>& solid, int collider) {
   return std::find(solid.begin(), solid.end(), collider) != solid.end();
 }
 
-// The mesh that was added last, at each of the places.
+// Adds instances of the last mesh at each of the places.
 void add_on_top(std::initializer_list<Vec3> places_m, const Vec3& color, DrawList& list,
                 const std::vector<Triangles>& meshes) {
   for (const Vec3& place_m : places_m) {
@@ -66,7 +66,7 @@ std::optional<NearestPoints> contact_with_obstacle(const Character& character, c
 
 void add_contact_mark(const NearestPoints& contact, double figure_m, DrawList& list, std::vector<Triangles>& meshes) {
   const Vec3 &a = contact.on_a_m, &b = contact.on_b_m;
-  for (const double rim : {kRim, 0.0}) {  // later ones lie over those before
+  for (const double rim : {kRim, 0.0}) {  // later meshes are drawn over earlier ones
     const Vec3& color = rim > 0.0 ? kContactRimColor : kContactColor;
     meshes.push_back(tessellate(Capsule{Vec3(0.0), b - a, (kLine + rim) * figure_m}));
     add_on_top({a}, color, list, meshes);

@@ -22,7 +22,8 @@ inline constexpr Vec3 kContactRimColor{0.004, 0.004, 0.008};  // a rim around th
 std::optional<NearestPoints> contact_of_pair(const Character& character, const Highlight& highlight,
                                              std::span<const Rigid> world);
 
-// Returns the points of a single highlighted solid and the obstacle that it is nearest to, or deepest in.
+// Returns the points of a single highlighted solid and of the nearest obstacle, or of the obstacle in which it is
+// deepest.
 std::optional<NearestPoints> contact_with_obstacle(const Character& character, const Environment& environment,
                                                    const Highlight& highlight, std::span<const Rigid> world);
 

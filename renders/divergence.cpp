@@ -19,7 +19,7 @@ using json_fields::Json;
 
 bool is_finite(const Vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-// Points of a joint's body, in its frame.
+// Points of a joint's body, in the joint's frame.
 std::vector<std::vector<Vec3>> points_of(const Character& character) {
   std::vector<std::vector<Vec3>> points(character.joints().size(), {Vec3(0.0)});
   for (const Collider& collider : character.colliders())
@@ -27,7 +27,7 @@ std::vector<std::vector<Vec3>> points_of(const Character& character) {
   return points;
 }
 
-// A joint of both, by its indices.
+// A joint that both characters have, with its indices.
 struct Common {
   int a = 0, b = 0;
 };
@@ -53,7 +53,7 @@ class Comparison {
     return common;
   }
 
-  // The joint that is farthest apart in a frame; NaN counts as farther than anything.
+  // The joint whose positions differ most in a frame; NaN counts as the greatest difference.
   Divergence::At worst_in(int frame, const std::vector<Common>& joints) {
     place(a_, frame, world_a_);
     place(b_, frame, world_b_);
@@ -73,7 +73,8 @@ class Comparison {
 
   double distance_m(const Common& joint) const {
     const std::vector<Vec3>&a = points_a_[at(joint.a)], &b = points_b_[at(joint.b)];
-    const std::size_t count = a.size() == b.size() ? a.size() : 1;  // another body: the joint itself
+    // For different bodies only the joint's own position is compared.
+    const std::size_t count = a.size() == b.size() ? a.size() : 1;
     double most_m = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
       const Vec3 pa = world_a_[at(joint.a)] * a[i], pb = world_b_[at(joint.b)] * b[i];

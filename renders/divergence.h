@@ -12,8 +12,8 @@ namespace contort {
 
 inline constexpr double kSamePlace_m = 0.001;
 
-// The differences of two motions. Joints are compared by name: the position of a joint, and of the points that span
-// its colliders, so that a hand that only turns is found too. Two positions that are not finite are equal.
+// The differences of two motions. Joints are compared by name: the position of a joint, and of the points that span its
+// colliders, so that a hand that only rotates is found too. Two positions that are not finite count as equal.
 struct Divergence {
   struct At {
     int frame = -1;

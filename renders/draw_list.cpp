@@ -12,13 +12,14 @@ namespace contort {
 namespace {
 
 constexpr Vec3 kHighlightColor{0.80, 0.035, 0.03};
-constexpr Vec3 kSecondColor{0.86, 0.20, 0.02};  // Colour of the other one of a pair: red on red hides which is which.
+// Colour of the second solid of a pair: with red on red, the two could not be told apart.
+constexpr Vec3 kSecondColor{0.86, 0.20, 0.02};
 constexpr Vec3 kMarkerColor{1.0, 0.82, 0.05};
 constexpr Vec3 kSkinColor{0.33, 0.37, 0.42};
 constexpr Vec3 kGhostColor{0.04, 0.042, 0.046};
 constexpr Vec3 kPaleColor{0.80, 0.80, 0.79};
 constexpr double kMarkerRadius_m = 0.038;
-constexpr double kWire = 0.0016;  // radius, in sizes of the figure: about a pixel of a strip's tile
+constexpr double kWire = 0.0016;  // radius, as a fraction of the figure's size: about a pixel of a strip's tile
 
 Vec3 muted(const Vec3& color) {
   const double grey = glm::dot(color, Vec3(0.2126, 0.7152, 0.0722));
@@ -48,7 +49,7 @@ bool drawn_as_it_is(const Character& character, const Collider& collider, bool w
   });
 }
 
-// Checks judge the collider. If the mesh differs from it, two parts that look apart may overlap.
+// Checks judge the colliders. If a mesh differs from its collider, two parts that look separate may overlap.
 void add_judged_shapes(Figure& figure, const Character& character, const Highlight& highlight, bool wears_skin) {
   int group = 0;
   for (const std::vector<int>& solid : highlight.solids) {

@@ -1,4 +1,4 @@
-// The contents of a picture, as plain values. Nothing here knows of OpenGL.
+// The contents of a picture, as plain values. Nothing here depends on OpenGL.
 //
 //   Figure figure = make_figure(character, highlighted(character, finding));   // once: triangles, colours
 //   DrawList list;

@@ -12,8 +12,8 @@ void insert_sorted(std::vector<int>& frames, int frame) {
   if (at == frames.end() || *at != frame) frames.insert(at, frame);
 }
 
-// Halves the widest gap between chosen frames. A gap inside the finding counts double: the fault is what one came to
-// see. Equal gaps: the earlier one. Answers false when all frames from the first to the last chosen one are chosen.
+// Halves the widest gap between chosen frames; of equal gaps the earlier one. A gap inside the finding counts double,
+// because the fault is most important. Returns false when all frames from the first to the last chosen one are chosen.
 bool halve_widest_gap(std::vector<int>& frames, int first, int last) {
   std::size_t widest = 0;
   std::int64_t widest_score = 0;
@@ -44,17 +44,17 @@ std::vector<int> choose_frames(int first, int worst, int last, int frame_count, 
   std::vector<int> frames{worst};
   if (frames.size() < wanted) insert_sorted(frames, first);
   if (frames.size() < wanted) insert_sorted(frames, last);
-  // Half the finding's length of context on either side; at least so much that there are enough frames to choose from.
+  // Context on either side: half the finding's length, and at least enough frames to choose from.
   const int context = std::max(tiles, (last - first) / 2);
   if (frames.size() + 2 <= wanted) {
     insert_sorted(frames, std::max(0, first - std::min(first, context)));
     insert_sorted(frames, end - last < context ? end : last + context);
   }
-  // A jump shows only beside the frame that was still good.
+  // A jump is visible only next to the last good frame.
   if (frames.size() < wanted && first > 0) insert_sorted(frames, first - 1);
   while (frames.size() < wanted && halve_widest_gap(frames, first, last)) {
   }
-  // Only where there was no room for both ends of the context (a finding of one frame at the motion's edge).
+  // Needed only if the context had no room on one side (a finding of one frame at the motion's edge).
   for (int frame = 0; frames.size() < wanted; ++frame) insert_sorted(frames, frame);
   return frames;
 }

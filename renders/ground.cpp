@@ -9,7 +9,7 @@ namespace contort {
 namespace {
 
 constexpr int kMostCells = kMostGroundTriangles / 2;
-constexpr double kFinestCell_m = 0.25;  // As far apart as the grid's lines: a twisted cell looks smooth.
+constexpr double kFinestCell_m = 0.25;  // The distance of the grid's lines: with it a twisted cell looks smooth.
 constexpr double kNosing_m = 0.03;      // About 3 pixels in a tile.
 
 // Four corners, counter-clockwise seen from outside.
@@ -27,7 +27,7 @@ void add_flat_quad(Triangles& out, const Quad& corners) {
   add_quad(out, corners, {normal, normal, normal, normal});
 }
 
-// The region in a frame that is turned about +Y: its bounding rectangle there.
+// The bounding rectangle of the region in a frame that is rotated about +Y.
 GroundRegion region_in(const Rigid& world_from_frame, const GroundRegion& region) {
   const Rigid frame_from_world = inverse(world_from_frame);
   constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -41,7 +41,8 @@ GroundRegion region_in(const Rigid& world_from_frame, const GroundRegion& region
   return local;
 }
 
-// `count` coordinates, `step` apart from `first`, as far as they are inside, and both ends.
+// Returns `low`, `high`, and those of `count` coordinates that lie between them; these are `step` apart, from `first`
+// on.
 std::vector<double> cuts(double low, double high, double first, double step, double count) {
   std::vector<double> result{low};
   const double from = std::clamp(std::ceil((low - first) / step), 0.0, count);
@@ -51,12 +52,12 @@ std::vector<double> cuts(double low, double high, double first, double step, dou
   return result;
 }
 
-// The most cuts that cuts() gives.
+// The greatest number of cuts that cuts() returns.
 double cut_count(double low, double high, double step, double count) {
   return std::min((high - low) / step, count) + 3.0;
 }
 
-// A cell of a grid of cuts, in the ground's frame. The normals are those of the bilinear surface over it.
+// Adds a cell of a grid of cuts, in the ground's frame. The normals are those of the bilinear surface over it.
 void add_cell(Triangles& out, const Environment& environment, const Rigid& world_from_ground,
               const GroundRegion& cell) {
   Quad corners = {Vec3(cell.low_x_m, 0, cell.low_z_m), Vec3(cell.low_x_m, 0, cell.high_z_m),
@@ -89,8 +90,8 @@ GroundMesh mesh_of(const SlopeGround&, const Environment& environment, const Gro
   return mesh_of(PlaneGround{}, environment, region);
 }
 
-// The grid's own lines and, between them, so many that cells are small; with too many cells, every second line, and so
-// on.
+// Cuts along the grid's own lines and, between them, enough others for small cells. If there are too many cells, it
+// uses every second line, and so on.
 GroundMesh mesh_of(const HeightGround& ground, const Environment& environment, const GroundRegion& region) {
   const Rigid& world_from_ground = environment.world_from_environment();
   const GroundRegion local = region_in(world_from_ground, region);
@@ -112,7 +113,7 @@ GroundMesh mesh_of(const HeightGround& ground, const Environment& environment, c
   return mesh;
 }
 
-// A flight of steps seen in its own frame: +Z climbs, from z = 0 at the first riser; y = 0 is the ground before it.
+// A flight of steps in its own frame: +Z climbs, z = 0 is the first riser, y = 0 is the ground before it.
 struct Flight {
   Rigid world_from_flight;
   double low_x_m = 0.0, high_x_m = 0.0;

@@ -7,7 +7,7 @@
 namespace contort {
 
 std::vector<std::byte> gzipped(std::span<const std::byte> bytes) {
-  constexpr int kGzip = 16, kMemory = 8;  // added to the window's bits: a gzip header; zlib's own default
+  constexpr int kGzip = 16, kMemory = 8;  // added to the window's bits for a gzip header; zlib's default
   z_stream stream{};
   if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzip + MAX_WBITS, kMemory, Z_DEFAULT_STRATEGY) != Z_OK)
     throw std::runtime_error("zlib cannot begin");

@@ -1,4 +1,4 @@
-// Compresses bytes with zlib; browsers decompress them (DecompressionStream).
+// Compresses bytes with zlib. Browsers decompress them (DecompressionStream).
 #pragma once
 
 #include <cstddef>

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view kBetween = " ~ ";
 
-// The colliders of the body or collider of this name; empty where there is none.
+// The colliders of the body or collider of this name; empty if there is none.
 std::vector<int> find_solid(const Character& character, std::string_view name) {
   std::vector<int> colliders;
   for (const Body& body : character.bodies())
@@ -97,7 +97,7 @@ int collider_of(const Character& character, const MeshPiece& piece) {
 
 bool is_of_object(const Collider& collider) { return collider.name.starts_with("object:"); }
 
-// The joint itself, or the nearest joints below it that have a mesh.
+// Returns the joint itself if it has a mesh, otherwise the nearest joints below it that have one.
 std::vector<bool> nearest_with(const std::vector<bool>& has_mesh, const Character& character, int joint) {
   std::vector<bool> searched(has_mesh.size(), false), found(has_mesh.size(), false);
   searched[at(joint)] = true;

@@ -33,8 +33,8 @@ bool is_of_object(const Character& character, const MeshPiece& piece);
 // joint without a mesh (one axis of several at one place) is represented by the pieces of the joints below it.
 std::vector<int> highlight_groups(const Character& character, const Highlight& highlight);
 
-// Returns the groups by joint, for a skin: `moved` says which joints have a piece of it. Objects are not part of the
-// skin.
+// Returns the groups by joint, for a skin. `moved` is true for the joints that have a piece of it. Objects are not part
+// of the skin.
 std::vector<int> highlight_groups_of_joints(const Character& character, const Highlight& highlight,
                                             const std::vector<bool>& moved);
 

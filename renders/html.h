@@ -1,4 +1,4 @@
-// Writes text into a page. Nothing else may write text between tags or into attributes.
+// Writes text into a page. All text between tags and in attributes must go through these functions.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@ namespace contort {
 // UTF-8 are replaced.
 std::string html_text(std::string_view text);
 
-// Returns safe text as html_text() does, but keeps line breaks.
+// Returns text that is safe like that of html_text(), but with line breaks.
 std::string html_lines(std::string_view text);
 
-// Returns a relative path as a URL that stays below the page's folder, ready for a quoted attribute; "" for a path
-// that does not ("../x", "/x").
+// Returns a relative path as a URL that stays below the page's folder, ready for a quoted attribute; "" for paths that
+// leave it ("../x", "/x").
 std::string html_url(std::string_view relative_path);
 
 }  // namespace contort

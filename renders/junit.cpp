@@ -18,7 +18,8 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// XML has no control characters, not even escaped, and none of the last two code points of a plane's end.
+// Removes characters that XML cannot contain, even escaped: control characters, and the last two code points of each
+// plane.
 std::string xml_text(const std::string& text) {
   std::string clean = one_line(text);
   for (const char* none : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"})

@@ -11,7 +11,7 @@ namespace contort {
 
 namespace {
 
-// A length is in millimetres below a metre.
+// Lengths below a metre are in millimetres.
 std::string familiar_text(double value, std::string_view unit) {
   if (unit == "m") return std::fabs(value) < 1.0 ? rounded_text(1000.0 * value) + " mm" : rounded_text(value) + " m";
   if (unit == "of its strength") return rounded_text(100.0 * value) + " %";

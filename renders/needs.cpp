@@ -8,7 +8,7 @@
 namespace contort {
 namespace {
 
-constexpr std::size_t kMostParts = 2;  // that are named
+constexpr std::size_t kMostParts = 2;  // greatest number of parts that are named
 
 std::string joined(const std::vector<std::string>& words, const char* between) {
   std::string text;
@@ -29,7 +29,7 @@ std::size_t count_clips(const Spec& spec) {
   return count;
 }
 
-// "an interrupt", "2 interrupts".
+// Adds "an interrupt" or "2 interrupts".
 void add_some(std::vector<std::string>& needs, std::size_t count, const char* one, const char* many) {
   if (count == 1) needs.emplace_back(one);
   if (count > 1) needs.push_back(std::to_string(count) + " " + many);
@@ -49,7 +49,7 @@ void add_figure(std::vector<std::string>& needs, const CharacterChoice& characte
 }
 
 void add_surroundings(std::vector<std::string>& needs, const EnvironmentDesc& environment) {
-  static constexpr const char* kGrounds[] = {"", "a slope", "steps", "uneven ground"};  // by variant
+  static constexpr const char* kGrounds[] = {"", "a slope", "steps", "uneven ground"};  // by variant of the ground
   if (const char* ground = kGrounds[environment.ground.index()]; *ground != '\0') needs.emplace_back(ground);
   add_some(needs, environment.obstacles.size(), "an obstacle", "obstacles");
 }

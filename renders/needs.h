@@ -9,7 +9,7 @@
 namespace contort {
 
 // Returns a text such as "crouch + pose, 2 clips, an interrupt, mech_leg_reverse as leg_left, rifle, mode dynamic, a
-// blow, steps". It leaves out what every spec has, or has one of.
+// blow, steps". Things that every spec has once are left out.
 std::string needs_of(const Spec& spec);
 
 // Returns the names of all actions that may be played, interrupts last, each as often as it is used.

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMostReasonsOnPage = 50;
 
-// The lines are those of `contort generator check`.
+// The same lines as in `contort generator check`.
 std::string refused_html(const ReportModel& model) {
   if (model.refused == 0) return "";
   std::string out = "<h3>Not judged</h3>\n<p>The generator refused " + html_text(count_text(model.refused)) + " of " +
@@ -29,7 +29,7 @@ std::string refused_html(const ReportModel& model) {
 
 using Counts = std::map<std::string, std::int64_t>;
 
-// The labels by count, the greatest first; labels of one count stay in their order.
+// The labels, the most frequent first; equally frequent ones keep their order.
 std::vector<std::pair<std::string_view, std::int64_t>> most_frequent_first(const Counts& counts) {
   std::vector<std::pair<std::string_view, std::int64_t>> rows(counts.begin(), counts.end());
   std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
@@ -43,7 +43,7 @@ struct Table {
   std::string_view subject;  // heading of the first column
 };
 
-// A label is "subject: reason". `subject_text` and `reason_text` put both into plain words.
+// A label has the form "subject: reason". `subject_text` and `reason_text` put both into plain words.
 template <class SubjectText, class ReasonText>
 std::string table_html(const Table& table, const Counts& counts, SubjectText subject_text, ReasonText reason_text) {
   if (counts.empty()) return "";

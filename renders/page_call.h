@@ -10,8 +10,8 @@ namespace contort {
 // Returns JSON without characters that could end a script element or begin a comment in it.
 std::string without_markup(std::string_view json);
 
-// Returns the script. `stamp` is a word that says what the file was made of, so that an unchanged file need not be
-// made again; "" for none.
+// Returns the script. `stamp` identifies the inputs of the file, so that an unchanged file need not be made again; ""
+// for none.
 std::string page_call(std::string_view function, std::string_view name, const std::string& data,
                       std::string_view stamp = "");
 

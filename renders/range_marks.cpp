@@ -10,14 +10,14 @@
 namespace contort {
 namespace {
 
-constexpr double kShare = 0.8;       // of the limb's length
-constexpr double kStep_rad = 0.1;    // of an arc; 6 degrees look round
+constexpr double kShare = 0.8;       // radius as a fraction of the limb's length
+constexpr double kStep_rad = 0.1;    // step of an arc; 6 degrees look round
 constexpr double kLeastLever = 0.1;  // sine below which a limb lies along its axis
 constexpr int kConeCorners = 64;
 constexpr Vec3 kAllowedColor{0.04, 0.50, 0.09};
 constexpr Vec3 kBeyondColor{0.80, 0.03, 0.03};
 
-// Seen from both sides.
+// Adds the triangle for both sides, so that it is visible from both.
 void add_two_sided(Triangles& triangles, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 normal = unit_or(glm::cross(b - a, c - a), Vec3(0, 1, 0));
   for (const Vec3& corner : {a, b, c}) triangles.positions_m.push_back(corner), triangles.normals.push_back(normal);
@@ -62,7 +62,7 @@ void add_hinge(const Joint& joint, const Rigid& place, const Vec3& lever_m, doub
   if (angle_rad < joint.low) add_mark(list, meshes, hinge.sector(0.0, joint.low - angle_rad), kBeyondColor, false);
 }
 
-// The limb's directions at the rim of the swing's ellipse (fuzz/compose_params.cpp draws within the same).
+// Draws the limb's directions at the rim of the swing's ellipse (as fuzz/compose_params.cpp draws swings).
 void add_ball(const Joint& joint, const Rigid& place, const Vec3& lever_m, const Quat& turned, DrawList& list,
               std::vector<Triangles>& meshes) {
   const Quat center = place.q * glm::conjugate(turned) * joint.swing_center;
@@ -73,7 +73,7 @@ void add_ball(const Joint& joint, const Rigid& place, const Vec3& lever_m, const
     const Vec3 swing = joint.swing_a_rad * around.cos * joint.swing_axis + joint.swing_b_rad * around.sin * other;
     return place.p_m + radius_m * (center * (from_rotation_vector(swing) * joint.axis));
   };
-  // The twist axis may point against the limb.
+  // The twist axis may point in the direction opposite to the limb.
   const Vec3 along = glm::conjugate(place.q) * (lever_m - place.p_m);
   const double sign = glm::dot(along, joint.axis) < 0.0 ? -1.0 : 1.0;
   Triangles cone;

@@ -16,7 +16,7 @@ using json_fields::Json;
 
 Json spec_of(const std::string& text) {
   const Result<Json> spec = json_fields::parse_document(text);
-  return spec ? *spec : Json(text);  // A spec that cannot be read is still shown.
+  return spec ? *spec : Json(text);  // A spec that cannot be parsed is still shown.
 }
 
 Json texts_of(const std::vector<Family>& families) {
@@ -30,7 +30,7 @@ Json row_json(const ReportRow& row) {
           {"check", row.check},
           {"subject", row.subject},
           {"unit", row.unit},
-          {"worst_margin", std::isfinite(row.worst_margin) ? Json(row.worst_margin) : Json()},  // null: not a number
+          {"worst_margin", std::isfinite(row.worst_margin) ? Json(row.worst_margin) : Json()},  // null for NaN
           {"measured", row.measured},
           {"cases_seen", row.cases_seen},
           {"bucket", row.bucket},
@@ -120,7 +120,7 @@ std::string report_json(const ReportModel& model) {
 }
 
 Result<Done> write_report(const ReportModel& model, const std::string& folder) {
-  for (const char* own : {"/strips", "/cases", "/rows", "/viewer"})  // what is old there is removed
+  for (const char* own : {"/strips", "/cases", "/rows", "/viewer"})  // old files in these folders are removed
     if (Result<Done> inside = check_inside(folder, folder + own); !inside) return inside;
   if (Result<Done> made = make_folder(folder); !made) return made;
   if (Result<Done> written = write_file(folder + "/report.json", report_json(model)); !written) return written;

@@ -1,4 +1,4 @@
-// The report: one static page that opens from a file, without server, network or, if need be, scripts; and the same
+// The report: one static page that opens from a file, without server or network, and even without scripts; and the same
 // numbers as JSON next to it.
 #pragma once
 
@@ -29,7 +29,7 @@ struct ReportRow {
   std::string key;              // the name in its files: strips/<key>-*.png, cases/<key>.js
   std::string character;        // name of the character
   bool has_motion = true;       // false: there is nothing for the viewer to play
-  std::string printed;          // the last words of a generator that ended; "" if it is no program of its own
+  std::string printed;          // the last output of a generator that ended; "" if it is no program of its own
   std::string state;            // "new", "open", "regressed", …
   bool gating = false;
   std::string spec_json;       // the minimal spec, laid out for reading
@@ -63,10 +63,12 @@ struct ReportCause {
   std::int64_t cases = 0;               // cases that showed its most frequent family
   std::vector<std::string> characters;  // sorted
   std::vector<std::string> buckets;     // ids, the deepest first
-  std::string key;                      // key of the row of its deepest case, if that has a motion; else ""
-  // Sentences that say when it fails, by character (docs/reference/conditions.md); empty if none were learned.
+  std::string key;                      // key of the row of its deepest case, if that case has a motion; otherwise ""
+  // Sentences about the conditions under which it fails, by character (docs/reference/conditions.md); empty if none
+  // were learned.
   std::map<std::string, std::string> conditions{};
-  CauseNews news = CauseNews::known;  // without a baseline new if nobody has acknowledged any of its failures
+  // Without a baseline, a cause is new if nobody has acknowledged any of its failures.
+  CauseNews news = CauseNews::known;
 };
 
 struct ReportModel {
@@ -80,7 +82,7 @@ struct ReportModel {
   std::string elapsed;  // "12 min"; "" if the page must be the same every time
   std::vector<ReportRow> rows;
   std::vector<ReportCause> causes;  // the most severe first
-  bool has_baseline = false;        // true: the news of causes compare with a baseline
+  bool has_baseline = false;        // true: the news of causes come from a comparison with a baseline
   bool has_engine = false;          // true: the page plays specs with viewer/engine.js (docs/internals/wasm.md)
   SearchProgress search;            // progress of all runs together
   std::vector<std::pair<std::string, std::int64_t>> tested;  // contents of the cases, and how often; 0: never
@@ -90,7 +92,7 @@ struct ReportModel {
   std::map<std::string, std::int64_t> not_judged{};  // cases that a check could not judge (RunRecord::not_judged)
 };
 
-// The rows by what they are: failures that are neither fixed nor without a smallest case, and the others.
+// The numbers of rows by kind: failures that are neither fixed nor without a minimal case, and the others.
 struct RowCounts {
   std::int64_t failures = 0;
   std::int64_t fixed = 0;

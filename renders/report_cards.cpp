@@ -50,7 +50,7 @@ std::string phase_fact(const ReportRow& row) {
   return words == row.phase ? words : row.phase + ": " + words;
 }
 
-// The figure is the row's.
+// Leaves out the character, which the row already shows.
 std::string without_figure(const Family& family) { return family.check + " " + family.subject; }
 
 std::string also_fact(const ReportRow& row) {
@@ -75,7 +75,7 @@ std::string open_html(const ReportRow& row, const PageFiles& inside) {
   return can_be_opened(row, inside) ? "<button type='button' class='open'>Look closer</button>\n" : "";
 }
 
-// Links to the case lead here where no script opens it.
+// The target of links to the case without scripts.
 std::string place_of(const ReportRow& row) {
   return attribute("id", "case=" + row.key) + attribute("data-case", row.key);
 }
@@ -103,7 +103,7 @@ std::string bucket_html(const ReportRow& row, Room& room, const PageFiles& insid
   return out + "</section>\n";
 }
 
-// With spaces between.
+// Joins words with spaces.
 std::string joined(const std::set<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
@@ -127,7 +127,8 @@ std::string any_bucket_html(const ReportRow& row, Room& room, const PageFiles& i
   return html;
 }
 
-// The buckets after the first. page.js puts those that are not here where `data-more` names the card.
+// The buckets of a card after the first. page.js adds rows that are in other files; `data-more` has the number of the
+// card.
 std::string more_html(const FamilyCard& card, LateCard& late, Room& room, const PageFiles& inside) {
   std::string shown;
   for (std::size_t i = 1; i < card.rows.size(); ++i)

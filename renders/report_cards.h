@@ -1,4 +1,4 @@
-// Makes the cards of the report's list, one for each family of failures, as markup. The page has as many as fit; the
+// Makes the cards of the report's list, one for each family of failures, as markup. The page has as many as fit. The
 // rows of the others (renders/report_rest.h) are made here too.
 #pragma once
 
@@ -21,7 +21,7 @@ struct FamilyCard {
 // Returns the cards, gating ones first, otherwise in the order of the model.
 std::vector<FamilyCard> cards_of(const ReportModel& model);
 
-// The limits of a page. Most of a page's bytes would be in rows that nobody reads. After the first 80 buckets, rows
+// The limits of a page. Most of a page's bytes would be in rows that are never read. After the first 80 buckets, rows
 // show no picture until they are opened, and the viewer shows their specs.
 struct Room {
   std::size_t buckets = 80;      // number of buckets that may still be shown with all details
@@ -44,14 +44,14 @@ std::string card_html(const FamilyCard& card, LateCard& late, Room& room, const 
 // Returns the words by which filters find a card, separated by spaces, each once.
 std::string states_of(const FamilyCard& card);
 std::string phases_of(const FamilyCard& card);
-std::string parts_of(const ReportRow& row);  // "arm_left torso" of "human: arm_left/forearm ~ torso/chest"
-// Returns each state once, and whether it gates: the texts of the chips.
+std::string parts_of(const ReportRow& row);  // "arm_left torso" for "human: arm_left/forearm ~ torso/chest"
+// Returns each state once, and true if it gates, for the filter's buttons.
 std::vector<std::pair<std::string, bool>> chips_of(const FamilyCard& card);
 std::string count_of(const FamilyCard& card);     // "1 280 cases, 2 failures"
 std::string short_text(const ReportRow& row);     // "worst … at …, just after an interrupt; needs walk"
 bool can_be_opened(const ReportRow& row, const PageFiles& inside);
 
-// Returns a command to copy, with the button that copies it; "" if there is none.
+// Returns a command with a button that copies it; "" if there is none.
 std::string command_html(const std::string& command);
 
 // Returns one attribute with a leading space.

@@ -23,12 +23,12 @@ namespace {
 // ---- verdict
 
 struct Verdict {
-  std::string look;  // class: bad, good, idle
+  std::string look;  // style class: bad, good, idle
   std::string text;
   std::string detail;
 };
 
-// "3 new, 1 regressed"
+// Text such as "3 new, 1 regressed".
 std::string states_text(const std::map<std::string, std::int64_t>& states) {
   std::string text;
   for (const auto& [state, count] : states)
@@ -68,12 +68,12 @@ Verdict verdict_of(const ReportModel& model) {
   return {"bad", text, detail + ". " + others};
 }
 
-// `singular`: the word of the glossary that explains the name.
+// `singular` is the word of the glossary that explains the name.
 std::string number_item(const std::string& value, std::string_view name, std::string_view singular = {}) {
   return "<div><dt>" + term_html(singular, name) + "</dt><dd>" + html_text(value) + "</dd></div>\n";
 }
 
-// Those that a person need not look at now have their own numbers, if there are any.
+// Failures that need no attention now are counted separately, if there are any.
 std::string failure_items(const RowCounts& counts) {
   std::string out = number_item(count_text(counts.failures), "failures", "failure");
   if (counts.fixed > 0) out += number_item(count_text(counts.fixed), "fixed", "state");
@@ -97,7 +97,7 @@ std::string verdict_html(const ReportModel& model, const Verdict& verdict) {
 
 // ---- the rest of the page
 
-// page.js fills the choices from the cards.
+// page.js fills in the choices from the cards.
 std::string filter_html() {
   std::string out =
       "<form class='filter' role='search'>\n<label class='words'><span>Filter</span><input type='search' id='words' "
@@ -108,7 +108,7 @@ std::string filter_html() {
   return out + "<output id='shown' aria-live='polite'></output>\n</form>\n";
 }
 
-// The cards that fit, and what is left in `late`.
+// Returns the cards that fit; the rest goes to `late`.
 std::string failures_html(const std::vector<FamilyCard>& cards, const PageFiles& inside, Room room,
                           std::vector<LateCard>& late) {
   std::string shown;
@@ -152,8 +152,8 @@ std::string text_of(std::string_view name) {
 }
 
 std::string head_html(const ReportModel& model, const Verdict& verdict, const std::string& nonce) {
-  // The nonce is made from the content: an injected script, if escaping ever failed, would have to name the hash of the
-  // page that it is part of.
+  // The nonce is a hash of the content. If escaping ever failed, an injected script would have to contain the hash of
+  // the page of which it is a part.
   const std::string by_nonce = "'nonce-" + nonce + "'", here = attribute("nonce", nonce);
   return "<!doctype html>\n<html lang='en'" + std::string(model.has_engine ? " data-engine" : "") + ">\n<head>\n<meta charset='utf-8'>\n"
          "<meta http-equiv='Content-Security-Policy' content=\"default-src 'none'; img-src 'self' file: data:; "
@@ -167,7 +167,8 @@ std::string head_html(const ReportModel& model, const Verdict& verdict, const st
          "</script>\n</head>\n";
 }
 
-// A script without what an HTML parser would see in it; in JavaScript's strings both spellings are the same.
+// Replaces character sequences that an HTML parser would interpret inside a script; in JavaScript strings both
+// spellings are the same.
 std::string inline_script(std::string text) {
   for (const auto& [seen, written] : {std::pair("</script", "<\\/script"), std::pair("<!--", "<\\!--")})
     for (std::size_t at = text.find(seen); at != text.npos; at = text.find(seen, at))
@@ -175,7 +176,7 @@ std::string inline_script(std::string text) {
   return text;
 }
 
-// The viewer, the cases and from where strips are seen, for page.js to find them.
+// The viewer, the cases and the cameras of strips, in a form that page.js reads.
 std::string inside_html(const PageFiles& inside, const std::string& nonce) {
   const std::string here = attribute("nonce", nonce);
   std::string out;
@@ -195,16 +196,17 @@ std::string inside_html(const PageFiles& inside, const std::string& nonce) {
 
 namespace {
 
-// A page of a megabyte is slow to open, over a network and in a mail's preview alike.
+// A page of a megabyte opens slowly, over a network and in a mail's preview.
 constexpr std::size_t kMostBytes = 900'000, kMostCardBytes = 600'000, kLeastCardBytes = 100'000;
-constexpr std::size_t kFewRows = 250;  // that may take all of it, and have their specs on the page
+// Reports with at most this many rows may use all of it, and have all specs on the page.
+constexpr std::size_t kFewRows = 250;
 
 Room room_for(const ReportModel& model, std::size_t others, bool alone) {
   const bool few = model.rows.size() <= kFewRows;
   Room room;
   room.spec_bytes = few ? 400'000 : 0;
   room.bytes = std::clamp(kMostBytes - std::min(kMostBytes, others), kLeastCardBytes, few ? kMostBytes : kMostCardBytes);
-  if (alone) room.bytes = static_cast<std::size_t>(-1);  // There is nowhere else, and mail takes more.
+  if (alone) room.bytes = static_cast<std::size_t>(-1);  // There are no other files, and mail accepts more.
   return room;
 }
 

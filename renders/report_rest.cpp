@@ -28,7 +28,7 @@ Json bucket_json(const ReportRow& row) {
           {"command", row.replay_command}};
 }
 
-// Texts are those that the page would have; page.js only puts them where they belong.
+// The texts are the same as on the page; page.js only inserts them.
 Json card_json(const LateCard& late) {
   Json json = {{"card", late.number}, {"buckets", Json::array()}};
   if (late.begun) return json;
@@ -76,7 +76,7 @@ std::vector<std::pair<std::string, std::string>> row_scripts(const std::vector<L
     if (rows == kRowsPerScript) close();
     cards.push_back(card_json(one));
     for (const ReportRow* row : one.rows) {
-      if (rows == kRowsPerScript) {  // the card goes on in the next file
+      if (rows == kRowsPerScript) {  // the card continues in the next file
         close();
         cards.push_back({{"card", one.number}, {"buckets", Json::array()}});
       }

@@ -19,8 +19,7 @@ std::vector<std::pair<std::string, std::string>> row_scripts(const std::vector<L
 // Returns the plain list as a page of its own, without scripts.
 std::string plain_list_html(const std::string& title, const std::vector<LateCard>& late, const std::string& css);
 
-// Removes those of these files that an earlier report has and `pages` has not. Files that a report did not write
-// stay.
+// Removes files that an earlier report wrote and `pages` does not contain. Other files stay.
 void remove_old_rest(const std::string& folder, const PageFiles& pages);
 
 }  // namespace contort

@@ -12,11 +12,11 @@ namespace contort {
 namespace {
 
 constexpr double kOwnPlace_m = 0.01;
-constexpr double kOnAxis = 0.05;  // Sine of the angle between axis and lever below which nothing is seen to turn.
+constexpr double kOnAxis = 0.05;  // Sine of the angle between axis and lever; below it no rotation is visible.
 constexpr double kBallRadius_m = 0.022;
-constexpr double kLifted_m = 0.004;        // A patch in the ground's plane would flicker.
-constexpr double kFarOutside_m = 0.5;      // Beyond it a ball would have all else drawn small.
-constexpr double kShortestImpact_m = 0.1;  // A blow is worth seeing, however weak.
+constexpr double kLifted_m = 0.004;        // A patch exactly on the ground would flicker.
+constexpr double kFarOutside_m = 0.5;  // With a ball farther away, the camera would show everything else very small.
+constexpr double kShortestImpact_m = 0.1;  // Even a weak blow is drawn with this length.
 
 void add_shape(DrawList& list, std::vector<Triangles>& meshes, Triangles triangles, DrawInstance instance) {
   instance.mesh = static_cast<int>(meshes.size());
@@ -26,13 +26,13 @@ void add_shape(DrawList& list, std::vector<Triangles>& meshes, Triangles triangl
 
 void add_arrow(DrawList& list, std::vector<Triangles>& meshes, const Vec3& from_m, const Vec3& along, double length_m,
                const Vec3& color) {
-  if (!(length_m >= kLeastArrow_m)) return;  // Nor where it is not a number.
+  if (!(length_m >= kLeastArrow_m)) return;  // also true for NaN
   const double shown_m = std::min(length_m, kLongestArrow_m);
   add_shape(list, meshes, arrow_triangles(shown_m),
             {.world_from_mesh = arrow_place(from_m, along), .color = color, .mark = true});
 }
 
-// The only joint that hangs on this one, or -1.
+// The only child of this joint, or -1.
 int only_child(const Character& character, int joint) {
   int child = -1;
   for (int j = joint + 1; j < static_cast<int>(character.joints().size()); ++j) {
@@ -43,7 +43,7 @@ int only_child(const Character& character, int joint) {
   return child;
 }
 
-// The accelerations that control adds to a joint's own freedoms.
+// The accelerations that control adds to the joint's own degrees of freedom.
 std::span<const double> control_of(const ResponseFrame& of, int joint) {
   const Response& response = of.motion.response;
   int before = 0;
@@ -62,7 +62,7 @@ void add_turning_arrow(const ResponseFrame& of, int joint, const Vec3& accelerat
   add_arrow(list, meshes, lever_m, unit_or(pull, Vec3(0, 1, 0)), kArrow_m_per_rad_s2 * size, kControlColor);
 }
 
-// Along a vector of m/s^2.
+// Adds an arrow along an acceleration.
 void add_pushing_arrow(const Vec3& from_m, const Vec3& acceleration_m_s2, DrawList& list,
                        std::vector<Triangles>& meshes) {
   const double size = glm::length(acceleration_m_s2);
@@ -74,13 +74,13 @@ bool is_placed(const ResponseFrame& of) {
                              [](const Rigid& place) { return std::isfinite(glm::dot(place.p_m, place.p_m)); });
 }
 
-// > 0 where a, b, c turn to the left seen from above, which is from +Y down.
+// > 0 if a, b, c turn to the left seen from above (from +Y down).
 double turn_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   return (b.z - a.z) * (c.x - a.x) - (b.x - a.x) * (c.z - a.z);
 }
 
 // The convex hull of points seen from above, counter-clockwise (A. M. Andrew, "Another efficient algorithm for convex
-// hulls in two dimensions", 1979): the lower chain in order of z and x, then the upper one back.
+// hulls in two dimensions", 1979): the lower chain in order of z and x, then the upper chain in reverse order.
 std::vector<Vec3> hull_from_above(std::vector<Vec3> points) {
   std::ranges::sort(points, [](const Vec3& a, const Vec3& b) { return std::pair(a.z, a.x) < std::pair(b.z, b.x); });
   std::vector<Vec3> hull;
@@ -98,7 +98,7 @@ std::vector<Vec3> hull_from_above(std::vector<Vec3> points) {
   return hull;
 }
 
-// Corners of the area that standing soles span, counter-clockwise seen from above.
+// The corners of the area between the standing soles, counter-clockwise seen from above.
 std::vector<Vec3> support_corners(const ResponseFrame& of) {
   std::vector<Vec3> corners;
   for (std::size_t i = 0; i < of.legs.size(); ++i) {
@@ -111,7 +111,7 @@ std::vector<Vec3> support_corners(const ResponseFrame& of) {
   return hull_from_above(std::move(corners));
 }
 
-// A fan around the origin, seen from above.
+// A fan of triangles around the origin, seen from above.
 Triangles patch_of(std::span<const Vec3> corners) {
   Triangles patch;
   for (std::size_t i = 0; i < corners.size(); ++i) {

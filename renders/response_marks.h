@@ -40,17 +40,17 @@ struct ResponseFrame {
 // several follow, the body's centre of mass. Bodies without mass between the axes of an anatomical joint are skipped.
 Vec3 lever_point_m(const Character& character, std::span<const Rigid> world, int joint);
 
-// Adds an arrow for each joint that control accelerates. It begins at the lever point and points where a hinge or
-// ball turns it to, with a length in proportion to the angular acceleration, or along the travel of a prismatic
-// joint. One arrow from the root's origin shows the root's linear acceleration. There is no arrow if the lever point
-// lies on the axis.
+// Adds an arrow for each joint that control accelerates. It begins at the lever point and points in the direction in
+// which a hinge or ball moves that point, with a length in proportion to the angular acceleration; for a prismatic
+// joint it points along the travel. One arrow from the root's origin shows the root's linear acceleration. There is no
+// arrow if the lever point lies on the axis.
 void add_control_arrows(const ResponseFrame& of, DrawList& list, std::vector<Triangles>& meshes);
 
 // Adds an arrow that ends at the point of an impact.
 void add_impact_arrows(const ResponseFrame& of, DrawList& list, std::vector<Triangles>& meshes);
 
-// Adds, while the figure stands, the area between its soles, and a ball at the ZMP: green inside the area, else red.
-// A ZMP that is far outside has no ball.
+// Adds, while the figure stands, the area between its soles, and a ball at the ZMP: green inside the area, otherwise
+// red. A ZMP that is far outside has no ball.
 void add_balance_marks(const ResponseFrame& of, DrawList& list, std::vector<Triangles>& meshes);
 
 // Adds boxes for loads; loads with unknown names are left out.

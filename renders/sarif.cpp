@@ -21,7 +21,7 @@ std::string help_of(const std::string& check) {
   return check;
 }
 
-// Hidden failures stay in the log, as what they are.
+// Hidden failures stay in the log, marked as hidden.
 Json suppressions_json(const ReportRow& row) {
   return Json::array({{{"kind", "external"}, {"status", "accepted"}, {"justification", one_line(row.note)}}});
 }
@@ -41,8 +41,8 @@ Json result_json(const ReportRow& row, int rule) {
                                        " at frame " + std::to_string(row.worst_frame) + since_text(row) + ". " +
                                        row.replay_command)},
                  {"locations", Json::array({location_json(row)})},
-                 // GitHub knows an alert again by primaryLocationLineHash alone, and would else hash the file's text,
-                 // which changes with each smaller case.
+                 // GitHub recognises an alert by primaryLocationLineHash only. Without it, it would hash the file's
+                 // text, which changes with each smaller case.
                  {"partialFingerprints",
                   {{"contort/v1", one_line(row.bucket)}, {"primaryLocationLineHash", one_line(row.bucket) + ":1"}}},
                  {"properties", {{"state", one_line(row.state)}, {"family", one_line(row.family)}}}};

@@ -9,9 +9,9 @@
 
 namespace contort::scene {
 
-constexpr double kGroundBeyond_m = 2.0;  // what is shown of the ground around a figure's path
+constexpr double kGroundBeyond_m = 2.0;  // distance around the figure's path to which the ground is shown
 
-// To a millionth, which is far below what can be seen; null for what no number in JSON can say.
+// Rounds to a millionth, which is far below what is visible; null for values that JSON cannot express.
 Json number(double value) { return std::isfinite(value) ? Json(std::round(value * 1e6) / 1e6 + 0.0) : Json(); }
 Json vector(const Vec3& v) { return {number(v.x), number(v.y), number(v.z)}; }
 namespace {
@@ -44,7 +44,7 @@ Json shape_json(const ConvexHull& hull, const Rigid& place) {
   return {{"shape", "hull"}, {"points", points}};
 }
 
-// Moved to `place`.
+// The shape, moved to `place`.
 Json shape_json(const ColliderShape& shape, const Rigid& place) {
   return std::visit([&](const auto& s) { return shape_json(s, place); }, shape);
 }
@@ -124,7 +124,7 @@ Json obstacles_json(const Environment& environment) {
   return all;
 }
 
-// ---- what happened
+// ---- events
 
 namespace {
 

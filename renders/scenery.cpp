@@ -8,17 +8,18 @@
 namespace contort {
 namespace {
 
-constexpr Vec3 kSurfaceColor{0.49, 0.53, 0.59};  // The level ground's, as linear RGB.
+constexpr Vec3 kSurfaceColor{0.49, 0.53, 0.59};  // The colour of level ground, as linear RGB.
 constexpr Vec3 kNosingColor{0.05, 0.07, 0.11};
-constexpr Vec3 kObstacleColor{0.30, 0.10, 0.46};  // Violet: no part, highlight or ghost is.
+constexpr Vec3 kObstacleColor{0.30, 0.10, 0.46};  // Violet, which no part, highlight or ghost has.
 
-// The eye is at most 6 times half the figure's diagonal away: 1.07 / 0.25 to fit it (camera.cpp) over 0.75 where it
-// stands still. The ground fades out at 0.75 times that distance from the middle of the picture (renderer.cpp).
+// The greatest distance of the eye is 6 times half the figure's diagonal: 1.07 / 0.25 to fit it (camera.cpp), divided
+// by 0.75 if the camera stands still. The ground fades out at 0.75 times that distance from the middle of the picture
+// (renderer.cpp).
 constexpr double kReachPerDiagonal = 0.75 * 6.0 / 2.0;
 
 constexpr double kHardlyRises = 0.1;  // Height over length; 6 degrees.
 
-// Height over length, toward the eye.
+// Height divided by length, toward the eye.
 double rise_toward(const View& view, const Environment& environment, const Vec3& at_m, double radius_m) {
   const det::SinCos azimuth = det::sincos(view.azimuth_rad);
   const double x_m = radius_m * azimuth.sin, z_m = radius_m * azimuth.cos;
@@ -46,7 +47,7 @@ int add_mesh(std::vector<Triangles>& meshes, Triangles triangles) {
 
 GroundRegion region_around(std::span<const std::vector<Vec3>> outlines) {
   Corners all;
-  double diagonal_m = 2.0;  // At least; of a frame without a figure, see frame_points.
+  double diagonal_m = 2.0;  // At least this, for a frame without a figure (see frame_points).
   bool first = true;
   for (const std::vector<Vec3>& points : outlines) {
     if (points.empty()) continue;
@@ -62,11 +63,11 @@ GroundRegion region_around(std::span<const std::vector<Vec3>> outlines) {
 std::vector<View> views_of(const Environment& environment, const Vec3& at_m, double radius_m) {
   std::vector<View> views = probe_views();
   const auto rise = [&](const View& view) { return rise_toward(view, environment, at_m, radius_m); };
-  double steepest = 0.0;  // Views come in opposite pairs.
+  double steepest = 0.0;  // Views come in opposite pairs, so the greatest rise is not negative.
   for (const View& view : views) steepest = std::max(steepest, rise(view));
   const bool steps = std::holds_alternative<StepsGround>(environment.ground());
   const auto shows_rise = [&](const View& view) {
-    const double share = rise(view) / steepest;  // The sine of the angle between view and contour, on a plane.
+    const double share = rise(view) / steepest;  // On a plane, the sine of the angle between view and contour.
     return steps ? share < -0.25 : std::fabs(share) < 0.25;
   };
   if (steepest > kHardlyRises) std::stable_partition(views.begin(), views.end(), shows_rise);

@@ -11,14 +11,14 @@ namespace contort {
 
 namespace {
 
-constexpr double kWide = 600.0, kHigh = 120.0;  // of the curve, in its own units
+constexpr double kWide = 600.0, kHigh = 120.0;  // size of the curve, in its own units
 
 // "1 in 2 500"
 std::string one_in(double share) {
   return "1 in " + count_text(share > 0.0 ? static_cast<std::int64_t>(std::floor(1.0 / share)) : 0);
 }
 
-constexpr std::int64_t kFewCases = 30;  // of which nothing can be said about the rest
+constexpr std::int64_t kFewCases = 30;  // with fewer cases nothing can be estimated
 
 std::string what_is_left(const SearchProgress& search) {
   const std::string odds = one_in(unseen_share(search));
@@ -39,7 +39,7 @@ void add_point(std::string& path, const char* move, double cases, double familie
   path += text;
 }
 
-// Families met over cases run, as steps.
+// The number of families over the number of cases, as steps.
 std::string curve_html(const SearchProgress& search) {
   if (search.discovered.empty()) return "";
   std::string path;

@@ -23,7 +23,7 @@ bool is_whole(const Character& character, const Motion& motion) {
          motion.root.size() == at(motion.frame_count);
 }
 
-// The freedoms of the root and all joints: the numbers in a row of Response::control.
+// The degrees of freedom of the root and all joints, which is the length of a row of Response::control.
 int freedoms_of(const Character& character) {
   int count = 0;
   for (const Joint& joint : character.joints()) count += freedom_count(joint.kind);
@@ -98,7 +98,7 @@ class Photographer {
     }
   }
 
-  // false: there is none.
+  // Returns false if there is no ghost.
   bool place_ghost(int frame) {
     const Response& response = story_.motion.response;
     if (story_.ghost) {
@@ -125,9 +125,9 @@ class Photographer {
   Environment environment_;
   double figure_m_;
   std::vector<Rigid> world_;
-  std::vector<int> groups_;               // of joints, by highlight; for a skin
+  std::vector<int> groups_;               // groups of joints, by highlight; only for a skin
   std::vector<int> ranged_;               // joints whose range is shown
-  std::vector<Leg> legs_;                 // of a motion with a response
+  std::vector<Leg> legs_;                 // legs of a motion with a response
 };
 
 Vec3 anchor_of(const Motion& motion, const Environment& environment, int frame) {
@@ -162,7 +162,8 @@ std::vector<View> views_of_angle(const Story& story, int frame, std::vector<View
   const auto along = [&](const View& view) { return std::fabs(glm::dot(towards_eye(view), axis)); };
   double most = 0.0;
   for (const View& view : views) most = std::max(most, along(view));
-  constexpr double kGoodEnough = 0.75;  // 40 degrees off the axis; a view from the front is understood sooner
+  // At most 40 degrees off the axis, because a view from the front is easier to understand.
+  constexpr double kGoodEnough = 0.75;
   std::erase_if(views, [&](const View& view) { return along(view) < kGoodEnough * most; });
   return views;
 }

@@ -1,4 +1,4 @@
-// Prepares the pictures of some frames of a motion, up to the drawing itself. Nothing here knows OpenGL.
+// Prepares the pictures of some frames of a motion, up to the drawing itself. Nothing here depends on OpenGL.
 #pragma once
 
 #include <span>
@@ -14,8 +14,8 @@
 
 namespace contort {
 
-// The motion to show. If dynamics changed it, its target is shown as a ghost, the figure itself is pale, and marks
-// show what happened (renders/response_marks.h).
+// The motion to show. If dynamics changed it, its target is shown as a ghost, the figure itself is pale, and marks show
+// the effects of dynamics (renders/response_marks.h).
 struct Story {
   const Character& character;
   const Motion& motion;                      // a motion of this character
@@ -32,7 +32,7 @@ struct Shots {
   std::vector<int> frames;
   std::vector<DrawList> lists;              // by frame, as all below
   std::vector<std::vector<Vec3>> outlines;  // for framing
-  std::vector<Vec3> anchors;                // the places on the ground below the root, which a moving camera follows
+  std::vector<Vec3> anchors;                // points on the ground below the root, which a moving camera follows
 };
 
 // Checks the input. Codes: render.no_frames, render.wrong_motion, render.bad_frame.
@@ -46,8 +46,8 @@ void add_scenery(const Story& story, std::span<const std::vector<Vec3>> outlines
 
 Environment environment_of(const Story& story);
 
-// Keeps the views from which the story's angle is visible: if a hinge left its range, views along its axis, from
-// which the sector of its range is not a line. Otherwise it keeps all views.
+// Keeps the views from which the finding's angle is visible: if a hinge left its range, views along its axis, from
+// which the sector of its range is not a line. For other findings it keeps all views.
 std::vector<View> views_of_angle(const Story& story, int frame, std::vector<View> views);
 
 }  // namespace contort

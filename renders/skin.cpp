@@ -29,7 +29,7 @@ std::vector<Mat4> rest_of(const Asset& asset) {
   return world;
 }
 
-// By node the character's joint that carries it: its own, or that of the nearest node above; -1 where there is none.
+// By node, the joint of the character that carries it: its own, or that of the nearest node above; -1 for none.
 std::vector<int> joints_of(const SkinDesc& desc, const Asset& asset, const Character& character) {
   std::vector<int> joints(asset.nodes.size(), -1);
   for (const int node : asset.order) {
@@ -102,7 +102,7 @@ class Tailor {
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) add_triangle(base, &mesh.indices[i]);
   }
 
-  // A vertex that hangs on nothing goes with the root.
+  // A vertex without joints follows the root.
   void add(const SkinnedVertex& vertex, const std::vector<Mat4>& world_from_mesh, const std::vector<int>& joints) {
     for (std::size_t i = 0; i < kInfluences; ++i) {
       if (!(vertex.weights[i] > 0.0)) continue;
@@ -132,9 +132,9 @@ class Tailor {
 
   const SkinnedAsset& asset_;
   std::vector<int> joint_of_node_;
-  std::vector<Mat4> rest_;  // of nodes, in the model
+  std::vector<Mat4> rest_;  // nodes at rest, in the model
   Mat4 world_from_model_;
-  std::vector<Rigid> joint_from_world_;  // at rest
+  std::vector<Rigid> joint_from_world_;  // joints at rest
   Skin skin_;
 };
 
@@ -153,7 +153,7 @@ std::vector<Vec3> posed_vertices(const Skin& skin, std::span<const Rigid> world)
   return positions_m;
 }
 
-// Sums the normals of the triangles around each vertex, weighted by area. Vertices in one place share theirs.
+// Sums the normals of the triangles around each vertex, weighted by area. Vertices at one place share their normal.
 std::vector<Vec3> vertex_normals(const Skin& skin, const std::vector<Vec3>& positions_m) {
   std::vector<Vec3> normals(positions_m.size(), Vec3(0.0));
   for (std::size_t i = 0; i + 2 < skin.indices.size(); i += 3) {

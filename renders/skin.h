@@ -28,7 +28,7 @@ struct Skin {
   std::vector<int> shared;            // for vertex i: the first vertex in the same place, which has the same normal
   std::vector<int> indices;           // three to a triangle, counter-clockwise seen from outside
   std::vector<int> owners;            // for each triangle the joint with the greatest weight
-  std::vector<bool> moved;            // by joint: true if it owns a triangle
+  std::vector<bool> moved;            // true for joints that own a triangle
 };
 
 // Binds a skin to a character. Codes skin.*: no node of the model is the root, no vertex follows the character's
@@ -41,8 +41,8 @@ struct SkinPiece {
   Triangles triangles;
 };
 
-// A skin in the pose `world` (world_from_joint). `group_of_joint` says which piece has the triangles that a joint
-// owns. Triangles without a finite position near the origin are left out, and `complete` is then false.
+// A skin in the pose `world` (world_from_joint). `group_of_joint` is the piece for the triangles that a joint owns.
+// Triangles without a finite position near the origin are left out, and `complete` is then false.
 struct PosedSkin {
   Vec3 origin_m{0.0};
   std::vector<SkinPiece> pieces;  // sorted by group; none is empty

@@ -12,8 +12,8 @@ namespace contort {
 
 namespace {
 
-constexpr double kSide = 160.0, kFrameMargin = 10.0;  // of the drawing, in pixels
-constexpr double kMostDistance_m = 1e6;          // farther points would leave no room for the others
+constexpr double kSide = 160.0, kFrameMargin = 10.0;  // size of the drawing, in pixels
+constexpr double kMostDistance_m = 1e6;  // points farther away are left out, because the others would be too small
 
 struct Dot {
   double x = 0.0;
@@ -24,7 +24,7 @@ bool can_be_shown(const Vec3& p) {
   return std::fabs(p.x) < kMostDistance_m && std::fabs(p.y) < kMostDistance_m && std::fabs(p.z) < kMostDistance_m;
 }
 
-// Parallel to the view from 35 degrees to the figure's left and 15 above it; y goes down.
+// Parallel projection, seen from 35 degrees to the figure's left and 15 degrees above; y points down.
 Dot seen(const Vec3& p) {
   constexpr double kCosYaw = 0.81915, kSinYaw = 0.57358, kCosPitch = 0.96593, kSinPitch = 0.25882;
   const double depth = kSinYaw * p.x + kCosYaw * p.z;

@@ -12,7 +12,7 @@ namespace contort {
 struct StickFigure {
   std::vector<Vec3> points;     // places of joints in the world, +Y up
   std::vector<int> parents{};   // by point: the point that carries it; -1 for none
-  std::vector<char> marked{};   // by point: the drawing is about this joint
+  std::vector<char> marked{};   // by point: true if the finding is about this joint
   bool operator==(const StickFigure&) const = default;
 };
 

@@ -1,4 +1,4 @@
-// For people in front of a build's page: Markdown, and the lines that GitHub shows beside the code.
+// Writes Markdown for the page of a build, and the lines that GitHub shows beside the code.
 #include <algorithm>
 #include <map>
 
@@ -11,7 +11,8 @@ namespace {
 
 // ---- Markdown
 
-// Text that stays text. A backslash before a sign that means nothing would be shown.
+// Escapes text so that Markdown shows it unchanged. Only special characters get a backslash, because elsewhere it would
+// be visible.
 std::string md_text(const std::string& text) {
   constexpr std::string_view kSigns = "\\`*_{}[]<>()#+!|~&$@:";
   std::string escaped;
@@ -22,10 +23,10 @@ std::string md_text(const std::string& text) {
   return escaped;
 }
 
-// Not between backticks: inside them nothing can be escaped, and a bar behind a backslash would end the table's cell.
+// Does not use backticks: nothing can be escaped between them, and a bar after a backslash would end the table's cell.
 std::string md_code(const std::string& text) { return "<code>" + md_text(text) + "</code>"; }
 
-// "2 new, 1 regressed"
+// Text such as "2 new, 1 regressed".
 std::string counts_text(const ReportModel& model, bool gating) {
   std::map<std::string, std::int64_t> counts;
   for (const ReportRow& row : model.rows)

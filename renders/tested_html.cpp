@@ -15,16 +15,17 @@ namespace contort {
 
 namespace {
 
-constexpr std::int64_t kMostListed = 500;  // pairs: the page stays below a megabyte (report.h)
+// Greatest number of pairs, so that the page stays below a megabyte (report.h).
+constexpr std::int64_t kMostListed = 500;
 
 bool is_pair(std::string_view label) { return label.starts_with("pair "); }
 
-// "action reach (ik) on arm_left in blend", taken apart (fuzz/labels.h).
+// The pieces of "action reach (ik) on arm_left in blend" (fuzz/labels.h).
 struct UseLabel {
   std::string action;
   std::string priority;
   std::string slot;
-  std::string phase;  // "": in any
+  std::string phase;  // "": in any phase
 };
 
 std::optional<UseLabel> use_of(std::string_view label) {
@@ -49,7 +50,7 @@ struct UseRow {
 };
 
 std::vector<UseRow> use_rows(const ReportModel& model) {
-  std::map<std::string, UseRow> rows;  // by label without phase
+  std::map<std::string, UseRow> rows;  // by the label without the phase
   for (const auto& [label, count] : model.tested) {
     const std::optional<UseLabel> use = use_of(label);
     if (!use) continue;
@@ -66,7 +67,7 @@ std::string count_cell(std::int64_t count, bool must_be) {
   return (must_be && count == 0 ? "<td class='never'>" : "<td>") + html_text(count_text(count)) + "</td>";
 }
 
-// An action that moves is in some phase, and at rest in none.
+// The phases in which an action can move a part: all except at_rest.
 std::vector<std::string_view> phases_of_actions() {
   std::vector<std::string_view> phases(phase_names().begin(), phase_names().end());
   std::erase(phases, phase_name(Phase::at_rest));
@@ -113,7 +114,7 @@ std::string pairs_html(const ReportModel& model) {
   return out + "</ul>\n</details>\n";
 }
 
-// Characters, parts, objects, grounds, interrupts.
+// The other contents: characters, parts, objects, grounds, interrupts.
 std::string others_html(const ReportModel& model) {
   const auto is_other = [](const auto& row) { return !is_pair(row.first) && !use_of(row.first); };
   std::int64_t largest = 0;

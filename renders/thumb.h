@@ -1,5 +1,5 @@
-// The worst frame of a failure, cut out of its film strip by the page's style sheet: no picture is drawn or stored
-// twice.
+// The worst frame of a failure, cut out of its film strip by the page's style sheet, so that no picture is drawn or
+// stored twice.
 #pragma once
 
 #include <string>

@@ -9,12 +9,12 @@ namespace {
 
 constexpr double kCheckWeight = 0.30, kSubjectWeight = 0.25, kActionsWeight = 0.20, kPhaseWeight = 0.15,
                  kCharacterWeight = 0.10;
-constexpr std::size_t kMostFamilies = 200;  // that are put in order of variety
+constexpr std::size_t kMostFamilies = 200;  // greatest number of families that are sorted by variety
 
-// Traits with a number for each word: comparing texts for each of a million pairs would take seconds.
+// Traits with a number for each word, because comparing texts for a million pairs would take seconds.
 struct Coded {
   int check = 0, phase = 0, character = 0;
-  std::vector<int> subject, actions;  // ascending, each once
+  std::vector<int> subject, actions;  // ascending, without repetition
 };
 
 class Coder {
@@ -37,7 +37,7 @@ class Coder {
     return out;
   }
 
-  // "arm_left", "forearm", "torso", "chest" of "arm_left/forearm ~ torso/chest".
+  // The words of a subject: "arm_left", "forearm", "torso", "chest" for "arm_left/forearm ~ torso/chest".
   static std::vector<std::string> words_of(const std::string& subject) {
     std::vector<std::string> words(1);
     for (const char c : subject)
@@ -52,7 +52,7 @@ class Coder {
   std::map<std::string, int> numbers_;
 };
 
-// Jaccard's distance, a metric of sets: the share of all words that only one of them has.
+// Jaccard's distance, a metric of sets: the fraction of all words that only one of the sets has.
 double set_distance(const std::vector<int>& a, const std::vector<int>& b) {
   std::size_t common = 0;
   for (auto l = a.begin(), r = b.begin(); l != a.end() && r != b.end();) {
@@ -70,13 +70,13 @@ double distance(const Coded& a, const Coded& b) {
          kCharacterWeight * (a.character != b.character);
 }
 
-// Depths that are no number come last.
+// NaN comes last.
 bool deeper(const FailureTraits& a, const FailureTraits& b) {
   const double left = std::isnan(a.depth) ? -1.0 : a.depth, right = std::isnan(b.depth) ? -1.0 : b.depth;
   return left != right ? left > right : a.name < b.name;
 }
 
-// 0: gates; 1: somebody has to look at it; 2: the rest.
+// Returns 0 for rows that gate, 1 for others that need attention, 2 for the rest.
 int group_of(const ReportRow& row) {
   if (row.gating) return 0;
   return row.state == "new" || row.state == "open" || row.state == "regressed" ? 1 : 2;
@@ -86,9 +86,9 @@ FailureTraits traits_of(const ReportRow& row) {
   return {row.check, row.subject, row.phase, row.character, row.actions, row.depth, row.key};
 }
 
-using Rows = std::vector<ReportRow>;  // of one family
+using Rows = std::vector<ReportRow>;  // the rows of one family
 
-// Sorts rows that gate first, then by depth: the first row speaks for the family.
+// Sorts rows that gate first, then by depth. The first row represents the family.
 std::vector<Rows> families_of(std::vector<ReportRow>& rows) {
   std::vector<Rows> families;
   std::map<std::string, std::size_t> index;
@@ -113,7 +113,7 @@ double distance(const FailureTraits& a, const FailureTraits& b) {
 }
 
 std::vector<std::size_t> furthest_first(std::span<const FailureTraits> all, std::size_t most) {
-  // In the order of depth first, so that the first of the furthest is the one that ties are for.
+  // Sorted by depth first, so that ties go to the deeper failure.
   std::vector<std::size_t> order(all.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return deeper(all[a], all[b]); });
@@ -121,7 +121,7 @@ std::vector<std::size_t> furthest_first(std::span<const FailureTraits> all, std:
   std::vector<Coded> coded;
   for (const FailureTraits& traits : all) coded.push_back(coder.code(traits));
 
-  std::vector<double> nearest(all.size(), 2.0);  // of each to those before it
+  std::vector<double> nearest(all.size(), 2.0);  // distance of each failure to the nearest one before it
   for (std::size_t done = 0; done < std::min(most, order.size()); ++done) {
     std::size_t next = done;
     for (std::size_t i = done; i < order.size(); ++i)

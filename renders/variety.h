@@ -27,8 +27,8 @@ struct FailureTraits {
 // sets of actions that share words are nearer than others.
 double distance(const FailureTraits& a, const FailureTraits& b);
 
-// Returns indices of `all`. The deepest comes first; each next one is furthest from its nearest predecessor; among
-// equals the deeper one, then by name. After `most` of them the rest is sorted by depth, because sorting all takes
+// Returns indices of `all`. The deepest comes first. Each next one is furthest from its nearest predecessor; of equals
+// the deeper one comes first, then by name. After `most` of them the rest is sorted by depth, because sorting all takes
 // time in proportion to most * all.size().
 std::vector<std::size_t> furthest_first(std::span<const FailureTraits> all, std::size_t most);
 

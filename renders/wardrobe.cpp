@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Links are followed: where they lead must be the folder, too.
+// Follows links; the target must be in the folder too.
 Result<std::string> model_path(const std::string& skin_path, const SkinDesc& desc) {
   std::error_code error;
   const fs::path folder = fs::path(skin_path).parent_path();

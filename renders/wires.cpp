@@ -6,8 +6,8 @@
 namespace contort {
 namespace {
 
-constexpr int kWireSides = 3;  // of a wire's cross-section: it is a pixel or two wide
-constexpr int kBends = 24;     // of a circle
+constexpr int kWireSides = 3;  // sides of a wire's cross-section: a wire is a pixel or two wide
+constexpr int kBends = 24;     // segments of a circle
 
 class Wires {
  public:
@@ -24,8 +24,8 @@ class Wires {
     }
   }
 
-  // Bends [first, last] of the circle that starts along u and goes on towards v; both with the circle's radius as
-  // length.
+  // Adds the segments [first, last] of the circle that starts along u and continues towards v. Both vectors have the
+  // circle's radius as length.
   void add_arc(const Vec3& center, const Vec3& u, const Vec3& v, int first, int last) {
     const auto point = [&](int bend) {
       const det::SinCos turn = det::sincos(2.0 * kPi * bend / kBends);

@@ -30,7 +30,7 @@ constexpr FamiliarUnit kFamiliarUnits[] = {
     {"rad", "\xC2\xB0", kDegPerRad}, {"rad/s", "\xC2\xB0/s", kDegPerRad},
     {"rad/s^2", "\xC2\xB0/s^2", kDegPerRad}, {"m", " mm", 1000.0}};
 
-// "2.30" gives "2.3", and "5.00" gives "5".
+// Removes zeros after the decimals: "2.30" becomes "2.3", and "5.00" becomes "5".
 std::string without_zeros(std::string digits) {
   if (digits.find('.') == std::string::npos) return digits;
   digits.erase(digits.find_last_not_of('0') + 1);
@@ -38,7 +38,8 @@ std::string without_zeros(std::string digits) {
   return digits;
 }
 
-// Length of the UTF-8 sequence at the front of `text`; 0 if it is broken, overlong, a surrogate or a control character.
+// The length of the UTF-8 sequence at the front of `text`; 0 if it is broken, overlong, a surrogate or a control
+// character.
 std::size_t sequence_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned lead = byte(0);
@@ -61,7 +62,7 @@ std::string rounded_text(double value) {
   if (std::isnan(value)) return "not a number";
   if (std::isinf(value)) return value < 0.0 ? "-infinite" : "infinite";
   if (value == 0.0) return "0";
-  const std::string rounded = format("%.2e", value);  // "-2.34e-02": the exponent of the rounded number
+  const std::string rounded = format("%.2e", value);  // "-2.34e-02": the exponent is that of the rounded number
   const int exponent = std::atoi(rounded.c_str() + rounded.find('e') + 1);
   if (exponent < -3 || exponent >= 6)
     return without_zeros(rounded.substr(0, rounded.find('e'))) + "e" + std::to_string(exponent);

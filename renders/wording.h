@@ -7,9 +7,9 @@
 
 namespace contort {
 
-// Returns a measured number for people, as the page, its charts and the console all write it: at most three significant
+// Returns a measured number for people, in the form of the page, its charts and the console: at most three significant
 // digits, narrow no-break spaces between thousands, and an exponent only below 0.001 and from a million on: "-0.0234",
-// "3 600", "1.5e9". "not a number" for NaN. `number` in renders/page/src/format.js is its twin.
+// "3 600", "1.5e9". "not a number" for NaN. renders/page/src/format.js has the same function, `number`.
 std::string rounded_text(double value);
 
 // Returns a margin with a second, familiar unit: "-0.21 rad (-12°)", "-0.0234 m (-23.4 mm)"; "not a number" for NaN.
@@ -35,9 +35,8 @@ std::string clean_share(std::int64_t cases, std::int64_t failing);
 // stay as they are.
 std::string phase_text(std::string_view phase);
 
-// Returns one line of valid UTF-8. Control characters and broken sequences become a replacement character; if there
-// are more than max_chars characters, the last one is an ellipsis. Text drawing and JSON refuse or misread anything
-// else.
+// Returns one line of valid UTF-8, which text drawing and JSON need. Control characters and broken sequences become a
+// replacement character. If there are more than max_chars characters, the last one is an ellipsis.
 std::string one_line(std::string_view text, std::size_t max_chars = static_cast<std::size_t>(-1));
 
 }  // namespace contort

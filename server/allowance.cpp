@@ -40,7 +40,7 @@ Allowance::Account& Allowance::account_of(const std::string& client, Time now) {
   return account;
 }
 
-// A client that has all of its allowance is as good as unknown.
+// Forgets clients that have their whole allowance: they are like unknown ones.
 void Allowance::forget_full(Time now) {
   std::erase_if(accounts_, [&](const auto& entry) {
     return entry.second.left + per_s_ * seconds_between(entry.second.since, now) >= at_once_;

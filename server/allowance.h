@@ -19,7 +19,7 @@ class Allowance {
   void spend(const std::string& client, double amount, Time now);
   // Spends the amount if it is available; returns false if not.
   bool take(const std::string& client, double amount, Time now);
-  // The seconds until something is left.
+  // seconds until the client may spend again
   double wait_s(const std::string& client, Time now);
 
  private:

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kJobsTold = 100;
 constexpr auto kPatience = std::chrono::seconds(1);
 
-// A second is what a refusal asks for; a client whose account is empty needs more.
+// A refusal asks the client to wait for one second. This sets a longer time for a client without CPU time.
 void wait_for_cpu(Answer& answer, double wait_s) {
   for (auto& [name, value] : answer.headers)
     if (name == "Retry-After" && wait_s > 1.0) value = std::to_string(static_cast<int>(std::ceil(wait_s)));
@@ -197,7 +197,7 @@ Result<std::string> App::library_folder(const std::string& id) const {
   return Issue{"library.not_found", "/library", "no library was registered under that id"};
 }
 
-// Its name is made of what it holds: who registers the same twice gets the same.
+// The id is a hash of the contents, so registering the same library twice gives the same id.
 Result<std::string> App::register_library(const std::map<std::string, std::string>& files) {
   std::string all;
   for (const auto& [name, text] : files) all += text + "\n";
@@ -219,7 +219,7 @@ Issue App::forget_library(const std::string& id, Issue why) {
   const std::lock_guard lock(libraries_mutex_);
   const std::string folder = libraries_[id];
   libraries_.erase(id);
-  // Files were numbered, and where they lie is nobody's business.
+  // Removes the folder from the message: the client does not know it, and may not learn it.
   if (const std::size_t at = why.text.find(folder); !folder.empty() && at != std::string::npos)
     why.text.erase(at, folder.size() + 1);
   return why;
@@ -235,7 +235,7 @@ Answer App::stream(const std::string& client, std::function<std::vector<Event>(b
     std::string text;
     try {
       for (const Event& event : next(more)) text += print_event(event);
-    } catch (const std::exception& error) {  // the page asks for another stream; the others' must not end with it
+    } catch (const std::exception& error) {  // the page opens another stream; other streams must not end
       std::fprintf(stderr, "contort: internal error: %s\n", error.what());
       ++failed_, more = false;
     }

@@ -23,14 +23,14 @@ namespace contort::server {
 struct AppConfig {
   GuardConfig guard;
   bool read_only = false;              // the corpus does not change
-  std::string corpus;                  // folder; "": none
-  std::string report;                  // folder of the page that is made of it
-  std::string pages;                   // folder of play.html and what it loads
+  std::string corpus;                  // folder of the corpus; "": none
+  std::string report;                  // folder of the report's pages
+  std::string pages;                   // folder of play.html and the files that it loads
   std::string library;                 // the script library.js, if pages play specs themselves (docs/internals/wasm.md)
-  std::string scratch;                 // folder for registered libraries and for files that pass
-  std::string catalogue;               // JSON: what there is; docs/reference/server.md
+  std::string scratch;                 // folder for registered libraries and temporary files
+  std::string catalogue;               // JSON: the catalogue of docs/reference/server.md
   std::vector<std::string> program;    // the command line of contort
-  std::function<std::string()> today;  // for what gates
+  std::function<std::string()> today;  // the present day, for quarantines and waivers
 };
 
 // Counters of changes, for all listeners: a listener compares them with the values that it saw last.
@@ -39,7 +39,7 @@ class News {
   struct Seen {
     std::int64_t corpus = -1, report = -1, job = -1;
   };
-  void corpus(const std::string& revision);  // tells nothing where it is the same
+  void corpus(const std::string& revision);  // does nothing if the revision is the same
   void report();
   void job(const Job& job);
   void close();
@@ -54,7 +54,7 @@ class News {
   std::condition_variable changed_;
   std::string revision_;
   std::int64_t corpus_ = 0, report_ = 0, job_ = 0;
-  std::vector<std::pair<std::int64_t, std::string>> jobs_;  // the latest
+  std::vector<std::pair<std::int64_t, std::string>> jobs_;  // the latest jobs
   bool closed_ = false;
 };
 
@@ -89,7 +89,7 @@ class App {
   Result<std::string> library_folder(const std::string& id) const;  // code library.not_found; "" for ""
   Result<std::string> register_library(const std::map<std::string, std::string>& files);
   Issue forget_library(const std::string& id, Issue why);  // removes an unfit library; returns `why`
-  Result<std::string> make_report();                       // the job
+  Result<std::string> make_report();                       // runs the report job
   std::string metrics() const;
   // A stream for one client; see Sessions::count_stream.
   Answer stream(const std::string& client, std::function<std::vector<Event>(bool& more)> next);
@@ -109,7 +109,7 @@ class App {
   Sessions sessions_;
   Jobs jobs_;
   mutable std::mutex libraries_mutex_;
-  std::map<std::string, std::string> libraries_;  // id to folder
+  std::map<std::string, std::string> libraries_;  // folder of each library, by id
 };
 
 }  // namespace contort::server

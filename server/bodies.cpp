@@ -27,7 +27,7 @@ std::string note() { return schema<NoteBody>(); }
 std::string evaluate() { return schema<EvaluateBody>(); }
 std::string nothing() { return schema<NoBody>(); }
 
-// Files differ in their formats, which say what they are.
+// Files have different formats, each of which has its own schema.
 std::string library() {
   return R"({"type":"object","required":["files"],"additionalProperties":false,"properties":{"files":{"type":"object",)"
          R"("minProperties":1,"maxProperties":256,"additionalProperties":{"type":"object"},)"

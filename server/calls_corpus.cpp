@@ -20,7 +20,7 @@ Answer job_answer(App& app, const Result<std::string>& id) {
   return job ? text_answer(print_job(*job)) : refusal(job.issue());
 }
 
-// The answer comes after the change is on the disk.
+// Answers after the change is on disk.
 template <class Body>
 Answer change_bucket(App& app, const Call& call,
                      Result<Bucket> (*edit)(const Bucket&, const Body&, const std::string&)) {

@@ -20,12 +20,12 @@ Answer json_answer(std::string body) {
   return answer;
 }
 
-// The state after a command, or why there was none.
+// The state after a command, or the reason of its failure.
 Answer after(const std::shared_ptr<Session>& session, const Result<Done>& done) {
   return done ? json_answer(session->state()) : refusal(done.issue());
 }
 
-// Reads the body, finds the session, does something with both.
+// Reads the body, finds the session, and passes both to a function.
 template <class Body>
 Answer with(App& app, const Call& call, Result<Done> (*act)(Session&, const Body&)) {
   const Result<Body> body = json_fields::read_document<Body>(call.request.body, "call");
@@ -44,7 +44,7 @@ std::optional<Mode> mode_of(const Call& call, const Session& session) {
 
 const Issue kNoMode{"call.no_mode", "", "that mode is not played in this session"};
 
-// -1: it is no number.
+// Returns -1 for text that is no number.
 int number_of(const std::string& text, int fallback) {
   if (text.empty()) return fallback;
   int value = -1;

@@ -46,7 +46,7 @@ void replace_once(std::string& text, std::string_view what, std::string_view by)
   if (const std::size_t at = text.find(what); at != std::string::npos) text.replace(at, what.size(), by);
 }
 
-// The report on the disk is a plain one that may be copied anywhere. Served, it has a script more, which may call us.
+// The report on disk may be copied anywhere. When it is served, it gets one more script, which may call the server.
 std::string made_live(std::string page) {
   replace_once(page, "style-src ", "connect-src 'self'; style-src 'self' ");
   replace_once(page, "script-src ", "script-src 'self' ");
@@ -54,8 +54,7 @@ std::string made_live(std::string page) {
   return page;
 }
 
-// The content security policy that the page contains, with frame-ancestors added, which only a header can set. "" where
-// the page has none.
+// The page's content security policy, with frame-ancestors added, which only a header can set; "" if the page has none.
 std::string policy_of(const std::string& page) {
   constexpr std::string_view kMeta = "<meta http-equiv='Content-Security-Policy' content=\"";
   const std::size_t at = page.find(kMeta);
@@ -108,7 +107,7 @@ Answer generate_file(App& app, const Call& call) {
   return worked ? text_answer(worked->reply->bytes, "model/gltf-binary") : refusal(worked.issue());
 }
 
-// A library that does not fit is refused here, not when it is used.
+// An invalid library is refused here, not when it is used.
 Answer register_library(App& app, const Call& call) {
   if (call.request.body.size() > static_cast<std::size_t>(app.engine().limits().library_bytes))
     return refusal({"call.too_large", "", "the library is larger than the limit in /api/catalogue"});
@@ -156,7 +155,7 @@ Answer page_file(App& app, const Call& call) {
   return file_answer(app.config().pages, path);
 }
 
-// The report says itself what its scripts may do.
+// The report contains its own policy for scripts.
 Answer report_file(App& app, const Call& call) {
   if (app.config().report.empty()) return refusal({"call.not_found", "", "this server has no corpus to report"});
   const std::string& path = call.id("rest");

@@ -22,7 +22,7 @@ Time after(Time since, double seconds) {
   return since + std::chrono::duration_cast<Time::duration>(std::chrono::duration<double>(seconds));
 }
 
-// Nobody is there, or nobody asks for anything: no answer.
+// The client has left or sends no request, so it gets no answer.
 const Issue kOver{"connection.over", "", "the client has gone, or asks for nothing"};
 
 bool wait_on(int socket, short events, Time until) {
@@ -68,7 +68,7 @@ void address_of(int socket, int (*ask)(int, sockaddr*, socklen_t*), std::string&
 Connection::Connection(int socket, Connections::Seat& seat, std::size_t most_chunked, const Patience& patience)
     : socket_(socket), seat_(seat), most_chunked_(most_chunked), patience_(patience) {}
 
-// The offset of the end of the head, behind its empty line; npos where it is longer than it may be.
+// The offset of the end of the head, after its empty line; npos if the head is too long.
 Result<std::size_t> Connection::receive_head() {
   const Time since = now();
   if (!seat_.waits_for_request(since)) return kOver;
@@ -102,7 +102,7 @@ Result<Head> Connection::next_request() {
   return head;
 }
 
-// Whether the client is still there.
+// Returns false if the client has left.
 bool Connection::receive(Time until) {
   if (!wait_on(socket_, POLLIN, until)) return false;
   const std::size_t before = received_.size();

@@ -1,5 +1,5 @@
 // One connection, as the HTTP library reads and writes it. Reading is limited in bytes and in time, whatever the
-// library asks for: no more than the head and the body of one request, and nothing from a client that is too slow.
+// library requests: no more than the head and the body of one request, and nothing from a client that is too slow.
 #pragma once
 
 #include <httplib.h>
@@ -16,7 +16,7 @@ namespace contort::server {
 // on average after that. The server's own time does not count.
 struct Patience {
   double next_request_s = 10.0;
-  double head_s = 5.0;  // from its first byte on
+  double head_s = 5.0;  // from the first byte of the head on
   double rest_s = 10.0;
   double bytes_per_s = 16 << 10;
   double lingering_s = 2.0;
@@ -58,14 +58,15 @@ class Connection final : public httplib::Stream {
   Connections::Seat& seat_;
   std::size_t most_chunked_;
   Patience patience_;
-  std::string received_;        // from the network
-  std::size_t taken_ = 0;       // of these bytes
-  std::string head_;            // for the library
-  std::size_t head_taken_ = 0;  // of it
+  std::string received_;        // bytes from the network
+  std::size_t taken_ = 0;       // how many of these bytes were used
+  std::string head_;            // head for the library
+  std::size_t head_taken_ = 0;  // how many bytes of the head the library has read
   std::size_t body_left_ = 0;
   bool is_chunked_ = false;
-  double waited_s_ = 0.0;  // for the rest of this request and for its answer to be taken
-  std::size_t moved_ = 0;  // bytes of both
+  // Time that the server waited for the rest of this request, and for its answer to be received.
+  double waited_s_ = 0.0;
+  std::size_t moved_ = 0;  // bytes of this request and its answer
 };
 
 // Refuses a connection for which there is no seat. Takes at most a fifth of a second.

@@ -19,7 +19,7 @@ Connections::Seat::~Seat() {
 bool Connections::Seat::waits_for_request(Time since) {
   const std::lock_guard lock(all_.mutex_);
   if (all_.closed_ || doing_ == Doing::leaving) return false;
-  if (doing_ != Doing::waiting_for_request) since_ = since;  // a new connection has waited since it came
+  if (doing_ != Doing::waiting_for_request) since_ = since;  // a new connection counts as waiting from its start
   doing_ = Doing::waiting_for_request;
   return true;
 }
@@ -34,7 +34,7 @@ void Connections::Seat::works() {
   if (doing_ != Doing::leaving) doing_ = Doing::working;
 }
 
-// Counts all connections where no client is named. Those that were shut down already do not count.
+// Counts the connections of a client, or all if there is no client. Connections that were shut down do not count.
 int Connections::count(const std::string* client) const {
   return static_cast<int>(std::ranges::count_if(seats_, [&](const Seat* seat) {
     return seat->doing_ != Seat::Doing::leaving && (client == nullptr || seat->client_ == *client);
@@ -51,7 +51,7 @@ Connections::Seat* Connections::longest_waiting(const std::string& client) const
   return longest;
 }
 
-// The client with most connections, among those for which the server waits in some connection.
+// The client with most connections, among those of which the server waits for at least one.
 std::string Connections::largest_client() const {
   std::map<std::string, int> counts;
   for (const Seat* seat : seats_)
@@ -60,7 +60,8 @@ std::string Connections::largest_client() const {
   return largest == counts.end() ? "" : largest->first;
 }
 
-// Its thread wakes up and leaves. The socket cannot be another one's by now: it is closed after the seat has gone.
+// Wakes the connection's thread, which then leaves. The socket is still this connection's, because it is closed after
+// the seat is destroyed.
 bool Connections::shut_down(Seat* seat) {
   if (seat == nullptr) return false;
   seat->doing_ = Seat::Doing::leaving;

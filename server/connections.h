@@ -34,8 +34,8 @@ class Connections {
     Connections& all_;
     int socket_;
     std::string client_;
-    // The mutex guards these two. A new connection has sent no request yet, so it counts as waiting from the
-    // beginning; its thread may say so late.
+    // The mutex guards these two. A new connection has sent no request yet, so it counts as waiting from the beginning,
+    // even if its thread starts late.
     Doing doing_ = Doing::waiting_for_request;
     Time since_ = now();
   };
@@ -43,8 +43,8 @@ class Connections {
   Connections(int most, int most_of_client) : most_(most), most_of_client_(most_of_client) {}
 
   // The caller keeps the socket, and closes it after the seat is destroyed. If a client has as many connections as
-  // allowed, the one for which the server has waited longest is shut down; if the server is full, one of the client
-  // that has most. Codes limit.connections, full.connections, if all of them are at work.
+  // allowed, its connection that has waited longest is shut down. If the server is full, a connection of the client
+  // with most connections is shut down. Codes limit.connections, full.connections, if all of them are at work.
   Result<std::unique_ptr<Seat>> enter(int socket, const std::string& client);
 
   // Shuts down the connections that wait for a request, now and in the future.

@@ -16,7 +16,7 @@ double cpu_s() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// In the worker: microseconds of CPU, then the reply.
+// Runs in the worker. The result is the CPU time in microseconds, then the reply.
 std::string work(Worker& worker, const std::string& text) {
   const double since_s = cpu_s();
   const Result<Task> task = parse_task(text);

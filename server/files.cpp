@@ -22,7 +22,8 @@ bool is_plain(std::string_view name) {
          name.find('\0') == std::string_view::npos;
 }
 
-// Step by step, so that no link on the way is followed, whenever it was put there. -1: there is no such file.
+// Opens one folder after another, so that no link is followed, even one that was made meanwhile. Returns -1 if there is
+// no such file.
 int open_steps(const std::string& folder, std::string_view path) {
   int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   while (file >= 0) {
@@ -53,7 +54,7 @@ std::string PlainFile::read(std::size_t most) {
     if (got <= 0) break;
     have += static_cast<std::size_t>(got);
   }
-  left_ = have < bytes.size() ? 0 : left_ - have;  // somebody cut it
+  left_ = have < bytes.size() ? 0 : left_ - have;  // the file was cut by another program
   bytes.resize(have);
   return bytes;
 }

@@ -9,12 +9,12 @@
 
 namespace contort::server {
 
-// A plain file below `folder`, whose way there has neither links nor "..". `path` is what a request asked for,
-// relative. Code call.not_found, whatever the reason, so that a client cannot learn which other files exist.
+// Reads a plain file below `folder`, without following links or "..". `path` is the relative path of a request. Code
+// call.not_found, whatever the reason, so that a client cannot learn which other files exist.
 Result<std::string> read_below(const std::string& folder, const std::string& path);
 
-// A plain file that is read piece by piece, so that it is never in memory as a whole, however slowly a client
-// receives it.
+// A plain file that is read piece by piece, so that it is never in memory as a whole, even if a client receives it
+// slowly.
 class PlainFile {
  public:
   PlainFile() = default;

@@ -13,7 +13,7 @@ bool writes(const Request& request) {
   return request.method == "POST" || request.method == "PUT" || request.method == "PATCH" || request.method == "DELETE";
 }
 
-// "Application/JSON; charset=utf-8" is one, "application/json-seq" is not.
+// Returns true for "Application/JSON; charset=utf-8", and false for "application/json-seq".
 bool is_json(const std::string& type) {
   std::string name = type.substr(0, type.find(';'));
   name.erase(name.find_last_not_of(" \t") + 1);
@@ -21,7 +21,7 @@ bool is_json(const std::string& type) {
   return name == "application/json";
 }
 
-// The body has to be what it is: what 1 kB of it may become in memory, nobody who compressed it decides.
+// Refuses compressed bodies, because 1 kB could become any size in memory, and bodies that are not JSON.
 Result<Done> admit_body(const Request& request) {
   const std::string encoding = request.header("content-encoding");
   if (!encoding.empty() && encoding != "identity")
@@ -31,7 +31,7 @@ Result<Done> admit_body(const Request& request) {
   return Done{};
 }
 
-// Takes the same time wherever they differ.
+// Takes the same time wherever the texts differ.
 bool equal(const std::string& a, const std::string& b) {
   unsigned different = a.size() == b.size() ? 0 : 1;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -39,7 +39,7 @@ bool equal(const std::string& a, const std::string& b) {
   return different == 0;
 }
 
-// "contort=<token>" among "a=b; c=d".
+// Finds "contort=<token>" in "a=b; c=d".
 std::string cookie_of(const Request& request) {
   const std::string all = "; " + request.header("cookie");
   const std::size_t at = all.find("; contort=");

@@ -9,8 +9,8 @@
 namespace contort::server {
 
 struct GuardConfig {
-  std::vector<std::string> hosts;  // "127.0.0.1:8080", "localhost:8080": what a Host header may say
-  std::string token;               // "": none is needed
+  std::vector<std::string> hosts;  // allowed Host headers: "127.0.0.1:8080", "localhost:8080"
+  std::string token;               // "": no token is needed
 };
 
 // Checks the head of a request only, so that no body is read for a client that may not call. Codes guard.host,

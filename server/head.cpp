@@ -9,7 +9,8 @@ namespace contort::server {
 
 namespace {
 
-// Headers by which somebody is let in, or that say where the body ends. The library would look at the first of two.
+// Headers that decide about access or about the end of the body. They must not be repeated, because the library would
+// use the first of two.
 constexpr std::string_view kOnce[] = {"authorization",  "content-encoding", "content-length", "content-type",
                                       "cookie",         "expect",           "host",           "origin",
                                       "sec-fetch-site", "transfer-encoding"};
@@ -39,7 +40,7 @@ bool has_controls(std::string_view line) {
   return std::ranges::any_of(line, [](unsigned char c) { return (c < 0x20 && c != '\t') || c == 0x7f; });
 }
 
-// Takes a line off the front, without its end.
+// Takes the first line off the text, and returns it without its line end.
 Result<std::string_view> take_line(std::string_view& text) {
   const std::size_t end = text.find('\n');
   if (end == std::string_view::npos || end == 0 || text[end - 1] != '\r') return bad("a line does not end with CR LF");
@@ -56,7 +57,7 @@ Result<Done> read_length(std::string_view value, Head& head) {
   return Done{};
 }
 
-// Adds the header to what the library sees, or does not.
+// Reads a header. It is passed on to the library unless the library must not see it.
 Result<Done> read_header(const std::string& name, std::string_view value, Head& head) {
   if (name == "range" || name == "if-range") return Done{};
   if (name == "accept-encoding") {

@@ -15,7 +15,7 @@ inline constexpr std::size_t kMostHeaders = 100;
 struct Head {
   std::string text;            // for the library: the request line and the headers that it may see
   std::size_t body_bytes = 0;  // from Content-Length; 0 without it
-  bool is_chunked = false;     // the body itself says where it ends
+  bool is_chunked = false;     // the body contains its own end
   bool is_read_only = false;   // GET or HEAD: the library does not read their bodies
 
   bool has_body() const { return is_chunked || body_bytes > 0; }

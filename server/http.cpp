@@ -16,19 +16,20 @@ namespace contort::server {
 
 namespace {
 
-constexpr std::size_t kMostTarget = 2048;  // of the request line: longer ones never reach a pattern
-constexpr int kBacklog = 512;              // connections that the kernel keeps until they are accepted
-constexpr int kTurnedAway = 32;            // threads for those that find no seat
-constexpr int kMostRequests = 100000;      // of one connection
+// Of the address: longer ones are refused before they are compared with patterns.
+constexpr std::size_t kMostTarget = 2048;
+constexpr int kBacklog = 512;  // greatest number of connections that the kernel keeps until they are accepted
+constexpr int kTurnedAway = 32;            // threads that refuse connections when the server is full
+constexpr int kMostRequests = 100000;      // greatest number of requests of one connection
 constexpr std::chrono::milliseconds kStopAgain{5};
-constexpr std::size_t kChunkOverhead = 8;  // bytes of the network for each of the body, in chunks of one byte
+constexpr std::size_t kChunkOverhead = 8;  // network bytes for each byte of the body, in chunks of one byte
 
 using Handled = httplib::Server::HandlerResponse;
 
 Request request_of(const httplib::Request& from) {
   Request request;
   request.method = from.method, request.path = from.path, request.client = from.remote_addr;
-  for (const auto& [name, value] : from.headers) request.headers[name] = value;  // lower case: read_head
+  for (const auto& [name, value] : from.headers) request.headers[name] = value;  // in lower case, by read_head
   for (const auto& [name, value] : from.params) request.query[name] = value;
   return request;
 }
@@ -40,7 +41,7 @@ void send(Answer answer, httplib::Response& to) {
   to.set_chunked_content_provider(answer.type, [pieces = answer.pieces](std::size_t, httplib::DataSink& sink) {
     bool more = true;
     const std::string text = pieces(more);
-    // An empty comment is sent where there is no event, so that a listener who has left is noticed.
+    // Sends an empty comment if there is no event, to notice listeners that have left.
     const bool sent = text.empty() ? !more || sink.write(":\n\n", 3) : sink.write(text.data(), text.size());
     if (!more) sink.done();
     return sent;
@@ -67,7 +68,7 @@ bool announces_body(const httplib::Request& request) {
   return request.has_header("transfer-encoding") || (!length.empty() && length != "0");
 }
 
-// Two servers on one port would share its connections, which SO_REUSEPORT allows.
+// Does not set SO_REUSEPORT: two servers on one port would share its connections.
 void set_options(socket_t socket) {
   const int yes = 1;
   ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -86,7 +87,7 @@ class Http::Impl : public httplib::Server {
  private:
   bool process_and_close_socket(socket_t socket) override;
   void converse(int socket);
-  // Whether it was; a body that was not read ends the connection.
+  // Returns true if the request was refused. If its body was not read, the connection ends.
   bool refuse(const httplib::Request& request, httplib::Response& response) const;
   void answer(const httplib::Request& request, httplib::Response& response) const;
   void read_and_answer(const httplib::Request&, httplib::Response&, const httplib::ContentReader&) const;
@@ -94,7 +95,7 @@ class Http::Impl : public httplib::Server {
   HttpConfig config_;
   Connections connections_;
   Service service_;
-  std::atomic<bool> over_ = false;  // run() has nothing more to answer
+  std::atomic<bool> over_ = false;  // run() will answer nothing more
 };
 
 Http::Impl::Impl(const HttpConfig& config)
@@ -119,7 +120,7 @@ void Http::Impl::serve(Service service) {
   service_ = std::move(service);
   const auto by_reading = [this](const httplib::Request& request, httplib::Response& response,
                                  const httplib::ContentReader& reader) { read_and_answer(request, response, reader); };
-  // A client that asks first whether the body is wanted is refused here, before it sends the body.
+  // Clients that ask before sending a body are refused here.
   set_expect_100_continue_handler([this](const httplib::Request& request, httplib::Response& response) {
     return refuse(request, response) ? response.status : 100;
   });
@@ -154,7 +155,7 @@ void Http::Impl::answer(const httplib::Request& request, httplib::Response& resp
   send(service_.answer(request_of(request)), response);
 }
 
-// The limit holds for what is kept, however it was sent.
+// The limit applies to the decoded body, for all encodings.
 void Http::Impl::read_and_answer(const httplib::Request& from, httplib::Response& response,
                                  const httplib::ContentReader& reader) const {
   Request request = request_of(from);
@@ -184,7 +185,7 @@ void Http::Impl::converse(int socket) {
   }
 }
 
-// In a thread of its own.
+// Runs in a thread of its own.
 bool Http::Impl::process_and_close_socket(socket_t socket) {
   converse(socket);
   ::close(socket);

@@ -12,8 +12,8 @@ namespace contort::server {
 
 struct HttpConfig {
   std::string host = "127.0.0.1";
-  int port = 8080;        // 0: any that is free
-  int connections = 192;  // at a time, streams among them
+  int port = 8080;        // 0: any free port
+  int connections = 192;  // greatest number at a time, streams included
   int connections_of_client = 64;
   std::size_t most_body = 1 << 20;
 };
@@ -34,7 +34,7 @@ class Http {
   Result<int> bind();
   // Answers requests until another thread calls stop(); then waits for the running ones.
   void run(Service service);
-  void stop();  // run() was called, or is about to be; returns when it is over
+  void stop();  // run() was called, or is about to be; returns when run() has ended
 
  private:
   class Impl;

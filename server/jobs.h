@@ -20,14 +20,14 @@ enum class JobState { queued, running, done, failed };
 struct Job {
   std::string id;
   std::string kind;    // report, shrink, replay
-  std::string about;   // a bucket; ""
+  std::string about;   // id of a bucket; "" for jobs about the whole corpus
   std::string client;  // the client that asked for it; "": the server itself
   JobState state = JobState::queued;
   std::string text;    // a sentence for people
-  std::string result;  // JSON; "" while there is none
+  std::string result;  // JSON; "" as long as there is no result
   Time since{};        // the time at which it began to run
   double seconds = 0.0;
-  double cpu_s = 0.0;  // of the programs that it ran
+  double cpu_s = 0.0;  // CPU time of the programs that it ran
 };
 
 // Prints a job as {job, kind, bucket, state, seconds, cpu_s, text, result}.
@@ -35,7 +35,8 @@ std::string print_job(const Job& job);
 
 class Jobs {
  public:
-  // The state of a job while it works: whether it is still wanted, and how much time it has used.
+  // The state of a running job. `stop` returns true if the job is no longer wanted; `cpu_s` is the CPU time that it has
+  // used.
   struct Running {
     std::function<bool()> stop;
     double cpu_s = 0.0;

@@ -22,7 +22,7 @@ class PlayClock {
  public:
   void set(int frame, bool playing, Time now) { frame_ = frame, playing_ = playing, since_ = now, ++version_; }
   bool playing() const { return playing_; }
-  std::int64_t version() const { return version_; }  // another one after each call of set
+  std::int64_t version() const { return version_; }  // changes with each call of set
   // The present frame; 0 is the first, and there is no last one.
   int frame(double rate_hz, Time now) const;
 
@@ -41,12 +41,12 @@ struct Played {
   std::string motion_hash;
   std::string frames;  // compact
   std::vector<QueueSpan> queue;
-  std::string spans;  // fields of the event, without take, revision and mode
+  std::string spans;  // fields of the event except take, revision and mode
 
   int frame_bytes() const { return joint_count * kJointBytes; }
   // Returns at most `count` compact frames, in the form that is sent; "" beyond the end.
   std::string frames_from(int from, int count) const;
-  // Returns the first frame in which the sent data of two motions of one take differ in any bit.
+  // Returns the first frame in which the compact frames of two motions of one take differ in any bit.
   int first_difference(const Played& other) const;
   // The transform of the root in the world, with a unit rotation unless the motion has NaN or infinite values.
   Rigid root(int frame) const;

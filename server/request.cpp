@@ -15,7 +15,7 @@ std::string find(const std::map<std::string, std::string>& values, const std::st
   return found == values.end() ? "" : found->second;
 }
 
-// Whole codes, or areas that end with a dot. The first that fits counts.
+// Whole codes, or prefixes that end with a dot. The first row that matches counts.
 constexpr std::pair<std::string_view, int> kStatuses[] = {
     {"call.not_found", 404},
     {"call.wrong_method", 405},
@@ -43,7 +43,8 @@ constexpr std::pair<std::string_view, int> kStatuses[] = {
     {"work.damaged", 500},
 };
 
-// Nobody may show an answer in a frame, where a click could be led astray, or take it for something that it is not.
+// All answers have these. Pages may not show an answer in a frame, where clicks could be misled, and browsers may not
+// guess its type.
 constexpr std::pair<const char*, const char*> kHeaders[] = {
     {"X-Content-Type-Options", "nosniff"},           {"X-Frame-Options", "DENY"}, {"Referrer-Policy", "no-referrer"},
     {"Cross-Origin-Resource-Policy", "same-origin"}, {"Accept-Ranges", "none"},
@@ -70,7 +71,7 @@ std::string Request::parameter(const std::string& name) const { return find(quer
 int status_of(const Issue& issue) {
   for (const auto& [code, status] : kStatuses)
     if (code.back() == '.' ? issue.code.starts_with(code) : issue.code == code) return status;
-  return 422;  // understood, but no motion can be made of it
+  return 422;  // understood, but no motion can be made from it
 }
 
 Answer refusal(const Issue& issue) {

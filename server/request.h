@@ -17,7 +17,7 @@ struct Request {
   std::map<std::string, std::string> query;    // decoded
   std::map<std::string, std::string> headers;  // names in lower case
   std::string body;
-  std::string client;  // address
+  std::string client;  // address of the client
 
   std::string header(const std::string& name) const;
   std::string parameter(const std::string& name) const;
@@ -38,11 +38,11 @@ struct Answer {
 int status_of(const Issue& issue);
 Answer refusal(const Issue& issue);
 
-// Returns the headers of the answer and those that all answers have, which restrict what a browser may do. A page
-// that may do more says so in its own Content-Security-Policy.
+// Returns the headers of the answer and those of all answers, which restrict what a browser may do. A page that needs
+// more has its own Content-Security-Policy.
 std::vector<std::pair<std::string, std::string>> headers_of(const Answer& answer);
 
-// Prints an answer as it is sent without the HTTP library; the connection ends with it.
+// Prints an answer as it is sent without the HTTP library; the connection is then closed.
 std::string print_answer(const Answer& answer);
 
 }  // namespace contort::server

@@ -61,7 +61,7 @@ constexpr Route kRoutes[] = {
     {"GET", "/report/{rest}", "The report.", calls::report_file, nullptr, "", kBytes, 200, false},
 };
 
-// Takes one step off the front.
+// Takes the first step off the path.
 std::string_view step(std::string_view& path) {
   path.remove_prefix(1);  // the slash
   const std::string_view head = path.substr(0, path.find('/'));
@@ -88,7 +88,7 @@ std::span<const Route> routes() { return kRoutes; }
 
 namespace {
 
-// The calls of an address; `ids` is what stands for {names} in their pattern.
+// The calls of an address. `ids` receives the values of the {names} in their pattern.
 std::vector<const Route*> routes_of(const std::string& path, std::map<std::string, std::string>& ids) {
   std::vector<const Route*> found;
   for (const Route& route : kRoutes) {
@@ -105,14 +105,14 @@ const Route* with_method(const std::vector<const Route*>& all, std::string_view 
   return found == all.end() ? nullptr : *found;
 }
 
-// "GET, HEAD, OPTIONS"
+// The methods as text: "GET, HEAD, OPTIONS".
 std::string allowed(const std::vector<const Route*>& all) {
   std::string names;
   for (const Route* route : all) names += std::string(route->method) + (route->method == "GET" ? ", HEAD, " : ", ");
   return names + "OPTIONS";
 }
 
-// The answer to a method that an address does not take. It lists those that the address takes.
+// The answer to a method that an address does not accept. It lists the accepted methods.
 Answer other_methods(const std::vector<const Route*>& all, const std::string& method) {
   Answer answer = refusal({"call.wrong_method", "", "this address does not take " + method});
   if (method == "OPTIONS") answer.status = 200, answer.body.clear();

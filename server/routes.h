@@ -1,4 +1,4 @@
-// The table of calls. It dispatches them, and the OpenAPI document is made from it. A new call is a row here, a
+// The table of calls. It dispatches calls, and the OpenAPI document is made from it. A new call is a row here, a
 // handler and a test.
 #pragma once
 
@@ -20,14 +20,15 @@ struct Call {
 
 struct Route {
   std::string_view method;
-  std::string_view pattern;  // "/api/sessions/{id}/push"; "{rest}" at the end takes what follows, with slashes
+  // "/api/sessions/{id}/push"; "{rest}" at the end matches the rest of the path, with slashes.
+  std::string_view pattern;
   std::string_view summary;
   Answer (*handler)(App&, const Call&);
   std::string (*body_schema)() = nullptr;  // JSON Schema; nullptr: no body
-  std::string_view parameters = "";        // of the query, with spaces between them
+  std::string_view parameters = "";        // names of query parameters, separated by spaces
   std::string_view answer = "application/json";
-  int status = 200;        // of success
-  bool documented = true;  // pages are not
+  int status = 200;        // status of success
+  bool documented = true;  // false for pages
 };
 
 std::span<const Route> routes();
@@ -36,13 +37,13 @@ std::span<const Route> routes();
 // may continue. Codes call.not_found, call.wrong_method, call.too_large.
 std::optional<Answer> refuse_route(const App& app, const Request& request, std::size_t body_bytes);
 
-// Calls the handler of a request; refuses for the same reasons.
+// Calls the handler of a request. Refuses for the same reasons as refuse_route().
 Answer dispatch(App& app, const Request& request);
 
 // Returns the OpenAPI 3.1 document as JSON.
 std::string openapi(std::string_view version);
 
-// Handlers, by the file that they are in.
+// The handlers, by the file in which they are defined.
 namespace calls {  // server/calls_sessions.cpp
 Answer open_session(App&, const Call&);
 Answer show_session(App&, const Call&);

@@ -19,7 +19,7 @@ namespace {
 constexpr const char* kPrefix = "contort-serve-";
 constexpr int kAttempts = 10;
 
-// -1: it is no folder of this user, or somebody has it.
+// Returns -1 if it is no folder of this user, or if it is locked.
 int lock_folder(const std::string& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   struct stat about {};
@@ -29,7 +29,7 @@ int lock_folder(const std::string& path) {
   return -1;
 }
 
-// Whether the folder that was locked still is at its path.
+// Returns true if the locked folder is still at its path.
 bool is_at(const std::string& path, int file) {
   struct stat opened {
   }, present{};
@@ -54,7 +54,8 @@ Result<std::unique_ptr<Scratch>> Scratch::make(std::string parent) {
   std::error_code error;
   if (parent.empty()) parent = fs::temp_directory_path(error).string();
   remove_dead(parent);
-  // Another run may take a new folder for a dead one's before it is locked: then there is another new one.
+  // Another run may remove the new folder before it is locked, because it looks like one of an ended run. Then another
+  // one is made.
   for (int attempt = 0; attempt < kAttempts && !error; ++attempt) {
     std::string path = parent + "/" + kPrefix + "XXXXXX";
     if (::mkdtemp(path.data()) == nullptr) break;

@@ -11,9 +11,9 @@ namespace contort::server {
 
 class Scratch {
  public:
-  // Makes a new folder in `parent`, or in the machine's folder for temporary files if that is "". First removes
-  // folders of ended runs of the same user. Call it after forking: a forked process would inherit the lock and keep
-  // the folder of an ended run. Code file.unwritable.
+  // Makes a new folder in `parent`, or in the machine's folder for temporary files if that is "". It first removes
+  // folders of ended runs of the same user. Call it after forking: a forked process would inherit the lock and keep the
+  // folder of an ended run. Code file.unwritable.
   static Result<std::unique_ptr<Scratch>> make(std::string parent = "");
   ~Scratch();
   Scratch(const Scratch&) = delete;
@@ -25,7 +25,7 @@ class Scratch {
  private:
   Scratch(std::string path, int lock) : path_(std::move(path)), lock_(lock) {}
   std::string path_;
-  int lock_;  // the folder itself, locked for as long as it is open
+  int lock_;  // file descriptor of the folder, locked as long as it is open
 };
 
 }  // namespace contort::server

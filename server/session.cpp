@@ -38,7 +38,7 @@ void Session::judge_soon() {
   });
 }
 
-// Another edit ends it: what it found would be of a spec that nobody sees any more.
+// Stops if the spec is edited, because the results would be about a spec that is not shown any more.
 void Session::judge() {
   std::unique_lock lock(mutex_);
   const std::int64_t revision = shown_.revision();
@@ -129,7 +129,7 @@ bool Session::ends_soon() const {
   return shown_.needs_next(now());
 }
 
-// Somebody else who changes the take now makes this needless.
+// Does nothing while another thread changes the take, because that makes the next take useless.
 void Session::prepare_next() {
   const std::unique_lock command(commands_, std::try_to_lock);
   if (!command.owns_lock()) return;

@@ -23,8 +23,8 @@ struct SessionDesc {
   std::string id;
   std::string client;
   Spec spec;
-  std::vector<Mode> modes;  // the first one is whose figure goes on in the next take; not empty
-  std::string library;      // folder of a registered one; ""
+  std::vector<Mode> modes;  // not empty; the next take continues the figure of the first mode
+  std::string library;      // folder of a registered library; "": none
   bool operator==(const SessionDesc&) const = default;
 };
 
@@ -43,7 +43,7 @@ class Session : public std::enable_shared_from_this<Session> {
   Result<Done> change(const Change& change);
 
   void play(bool playing);
-  void step(int frames);  // stops the clock; to a frame of the take
+  void step(int frames);  // stops the clock, and goes to a frame of the take
   void restart();         // from frame 0 of the same take
 
   std::string state() const;  // JSON
@@ -64,7 +64,7 @@ class Session : public std::enable_shared_from_this<Session> {
   double idle_s(Time now) const;
   std::size_t bytes() const;
   double cpu_s() const { return maker_.cpu_s(); }
-  void close();  // streams end
+  void close();  // ends the streams
   bool closed() const;
 
  private:

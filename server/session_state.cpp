@@ -14,7 +14,7 @@ namespace {
 
 using json_fields::Json;
 
-constexpr double kPrepare_s = 1.5;  // before the end of a take the next one is made
+constexpr double kPrepare_s = 1.5;  // the next take is made this long before the end of a take
 
 bool is_finite_place(const Rigid& place) {
   return std::isfinite(glm::dot(place.p_m, place.p_m)) && std::isfinite(place.q.w + place.q.x + place.q.y + place.q.z);

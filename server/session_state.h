@@ -20,8 +20,8 @@ struct PlayedModel {
 
 // Findings and curves of one mode.
 struct Judged {
-  std::int64_t revision = 0;  // of the spec that was judged
-  std::string fields;         // of the event, without take, revision and mode
+  std::int64_t revision = 0;  // revision of the judged spec
+  std::string fields;         // fields of the event except take, revision and mode
   bool operator==(const Judged&) const = default;
 };
 
@@ -40,17 +40,17 @@ class SessionState {
   const std::string& model() const { return model_.json; }
   int model_number() const { return model_number_; }
   std::int64_t revision() const { return revision_; }  // of the take's spec; never falls
-  // Returns the first frame of a mode that differs from that revision of this take; `unchanged` if there is none.
+  // Returns the first frame of a mode that differs from this revision of the take; `unchanged` if there is none.
   int first_change(Mode mode, std::int64_t since, int unchanged) const;
   // Returns the spec of this take or the previous one in a mode in which it was played; nothing for others.
   std::optional<Spec> spec_of(int take, Mode mode) const;
-  std::size_t bytes() const;  // of all frames and the model
+  std::size_t bytes() const;  // size of all frames and the model
 
-  void play(bool playing, Time now);     // from the present frame
-  void stop_at(int frame, Time now);     // in the nearest frame that the take has
-  void restart(Time now);                // in frame 0, playing or not as before
+  void play(bool playing, Time now);     // starts or stops the clock at the present frame
+  void stop_at(int frame, Time now);     // stops the clock at the nearest frame of the take
+  void restart(Time now);                // goes to frame 0; the clock keeps playing or stays stopped
   const PlayClock& clock() const { return clock_; }
-  int frame(Time now) const;  // the present one
+  int frame(Time now) const;  // the present frame
   int last_frame() const { return main().frame_count - 1; }
   bool has_ended(Time now) const;
 
@@ -59,17 +59,18 @@ class SessionState {
   Spec standing_spec(int frame) const;
 
   // The next take is made before the clock needs it. It continues one revision; an edit makes it useless.
-  bool needs_next(Time now) const;  // The end is near, and nobody has tried to make it.
+  bool needs_next(Time now) const;  // the end is near, and there was no attempt to make the next take
   bool has_tried_next() const { return next_for_ == revision_; }
-  void set_next(std::optional<PlayedTake> take, std::int64_t revision);  // empty: it cannot be made
-  // Begins the next take. If there is none, the clock stops in the last frame; playing again tries again to make it.
+  void set_next(std::optional<PlayedTake> take, std::int64_t revision);  // empty: the take cannot be made
+  // Begins the next take. If there is none, the clock stops in the last frame; playing again tries again to make the
+  // next take.
   void roll(Time now);
 
   void set_judged(Mode mode, Judged judged) { judged_[mode] = std::move(judged); }
-  const std::map<Mode, Judged>& judged() const { return judged_; }  // of the present revision
+  const std::map<Mode, Judged>& judged() const { return judged_; }  // results for the present revision
 
   void set_problem(std::string text) { problem_ = std::move(text), ++problem_number_; }
-  const std::string& problem() const { return problem_; }  // the last one
+  const std::string& problem() const { return problem_; }  // the last problem
   std::int64_t problem_number() const { return problem_number_; }
 
  private:
@@ -84,10 +85,10 @@ class SessionState {
   PlayedTake take_;
   std::vector<Mode> modes_;
   std::int64_t revision_ = 0;
-  std::vector<Change> changes_;  // of this take
+  std::vector<Change> changes_;  // edits of this take
   std::optional<PlayedTake> before_;
   std::optional<PlayedTake> next_;
-  std::int64_t next_for_ = -1;  // the revision that it follows
+  std::int64_t next_for_ = -1;  // the revision that the next take continues
   PlayedModel model_;
   int model_number_ = 0;
   PlayClock clock_;

@@ -79,7 +79,7 @@ void Sessions::sweep(Time now) {
       if (session->idle_s(now) > engine_.limits().idle_s) idle.push_back(id);
   }
   for (const std::string& id : idle)
-    if (const Result<Done> closed = close(id); !closed) continue;  // somebody was faster
+    if (const Result<Done> closed = close(id); !closed) continue;  // another thread closed it first
 }
 
 void Sessions::close_all() {

@@ -22,13 +22,13 @@ class Sessions {
   Result<std::shared_ptr<Session>> find(const std::string& id) const;
   Result<Done> close(const std::string& id);
 
-  // Ends sessions that were not used for some time; all of them at the end.
+  // Ends sessions that were unused for some time; at the server's end all sessions.
   void sweep(Time now);
   void close_all();
 
   int count() const;
   std::size_t bytes() const;
-  double cpu_s() const;  // of all that ever were
+  double cpu_s() const;  // CPU time of all sessions, including ended ones
 
   // Counts a stream as open for as long as the result is held. Codes limit.streams, full.streams.
   Result<std::shared_ptr<void>> count_stream(const std::string& client);
@@ -40,8 +40,8 @@ class Sessions {
   Engine& engine_;
   mutable std::mutex mutex_;
   std::map<std::string, std::shared_ptr<Session>> sessions_;
-  std::map<std::string, int> opening_;  // by client: not in sessions_ yet
-  std::map<std::string, int> streams_;  // by client
+  std::map<std::string, int> opening_;  // by client: sessions that are not in sessions_ yet
+  std::map<std::string, int> streams_;  // number of streams by client
   double ended_cpu_s_ = 0.0;
 };
 

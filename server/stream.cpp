@@ -12,8 +12,8 @@ namespace contort::server {
 
 namespace {
 
-constexpr double kLead_s = 1.5;    // frames are sent so far ahead of the clock
-constexpr double kRefill_s = 1.0;  // when there is less than this, more is sent
+constexpr double kLead_s = 1.5;    // frames are sent up to this far ahead of the clock
+constexpr double kRefill_s = 1.0;  // more frames are sent when less than this is left
 constexpr int kMostFramesAtOnce = 240;
 constexpr auto kClockEvery = std::chrono::seconds(1);
 
@@ -52,13 +52,13 @@ Event frames_event(const SessionState& shown, Mode mode, int from, int count) {
                         ",\"data\":\"" + to_base64(std::as_bytes(std::span(part))) + "\"}"};
 }
 
-// Frames from `from` up to, without, `end`.
+// Adds the frames [from, end).
 void add_frames(const SessionState& shown, Mode mode, int from, int end, std::vector<Event>& events) {
   for (; from < end; from += kMostFramesAtOnce)
     events.push_back(frames_event(shown, mode, from, std::min(kMostFramesAtOnce, end - from)));
 }
 
-// Frames ahead of the clock: a lead, where less than the refill is left of it.
+// Sends frames up to kLead_s ahead of the clock, if less than kRefill_s of them is left.
 void add_lead(const SessionState& shown, Mode mode, Frames& sent, int frame, std::vector<Event>& events) {
   const Played& played = *shown.take().played.at(mode);
   const auto ahead = [&](double seconds) {
@@ -69,7 +69,7 @@ void add_lead(const SessionState& shown, Mode mode, Frames& sent, int frame, std
   sent.next = ahead(kLead_s);
 }
 
-// Frames that an edit changed are sent again: first those that the clock comes to, then those that were shown already.
+// Sends frames again that an edit changed: first those ahead of the clock, then those that were already shown.
 void add_frames_of(const SessionState& shown, Mode mode, const StreamState& stream, Frames& sent, int frame,
                    std::vector<Event>& events) {
   const bool knows_take = stream.revision >= 0;

@@ -21,7 +21,7 @@ struct StreamState {
   std::int64_t clock = -1;
   std::int64_t problem = 0;
   std::map<Mode, Frames> sent;
-  std::map<Mode, std::int64_t> judged;  // revision
+  std::map<Mode, std::int64_t> judged;  // revision for which results were sent
   Time clock_sent{};
 };
 

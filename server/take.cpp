@@ -8,7 +8,7 @@ namespace contort::server {
 
 namespace {
 
-constexpr std::size_t kMostInterrupts = 64, kMostImpacts = 64, kMostClips = 256;  // as spec_fields.h has them
+constexpr std::size_t kMostInterrupts = 64, kMostImpacts = 64, kMostClips = 256;  // as in spec_fields.h
 
 Issue full(const std::string& what) {
   return {"take.full", "", "this take holds as many " + what + " as a spec can; begin a new one"};
@@ -18,7 +18,7 @@ Quat start_turn(const Spec& spec) { return axis_angle(Vec3(0, 1, 0), spec.start.
 
 Vec3 start_place(const Spec& spec) { return {spec.start.position_m.x, 0.0, spec.start.position_m.z}; }
 
-// The span that runs in the frame that was shown last and in the next one too; nullptr where none does.
+// The span that includes the last shown frame and the next one; nullptr if there is none.
 const QueueSpan* running(const Moment& now) {
   const auto runs = [&](const QueueSpan& span) { return span.first_frame <= now.frame && now.frame < span.last_frame; };
   const auto found = std::ranges::find_if(now.queue, runs);
@@ -93,7 +93,7 @@ Spec next_take(const Spec& spec, const Rigid& root, const Quat& rest) {
   next.recording = {};
   next.hold_frames = 0;
   const Vec3 ahead = root.q * glm::conjugate(rest) * Vec3(0, 0, 1);
-  // To whole millimetres and tenths of degrees: a person reads this spec.
+  // Rounds to millimetres and tenths of degrees, because people read this spec.
   const auto place_m = [](double value) { return on_lattice(std::clamp(value, -1000.0, 1000.0), 1000); };
   next.start.position_m = Vec3(place_m(root.p_m.x), 0.0, place_m(root.p_m.z));
   next.start.heading_deg = on_lattice(det::atan2(ahead.x, ahead.z) / kRadPerDeg, 10);

@@ -14,7 +14,7 @@ namespace contort::server {
 
 // The moment up to which a motion has been shown, and the queue until then.
 struct Moment {
-  int frame = 0;  // the last one that was shown
+  int frame = 0;  // the frame that was shown last
   std::span<const QueueSpan> queue;
 };
 
@@ -24,7 +24,7 @@ Result<Spec> with_sequence(const Spec& spec, const SequenceDesc& sequence, Enter
 struct AimCommand {
   std::string slot;
   std::string action = "aim";  // or look_at
-  std::string point;           // of the attached object or the part; "" where the action has none
+  std::string point;           // point of the attached object or the part; "" if the action has none
   Vec3 target_m{0.0};          // in the world
   int duration_frames = 90;    // [1, 6000]
   int blend_frames = 12;       // in and out
@@ -36,7 +36,7 @@ Result<Spec> with_aim(const Spec& spec, const AimCommand& aim, const Moment& now
 
 struct PushCommand {
   std::string slot;
-  std::string joint;      // of that slot's part, by its own name; "": its first one
+  std::string joint;      // joint of that slot's part, by its own name; "": its first joint
   Vec3 point_m{0.0};      // in the joint's frame
   Vec3 impulse_N_s{0.0};  // in the world
 };

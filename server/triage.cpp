@@ -19,7 +19,7 @@ using json_fields::Json;
 namespace {
 
 constexpr double kReplay_s = 120.0, kShrink_s = 120.0, kReport_s = 3600.0;
-constexpr const char* kRun = "serve";  // what sessions keep is of this run
+constexpr const char* kRun = "serve";  // name of the run for cases from sessions
 
 Json bucket_json(const Bucket& bucket, const std::string& today) {
   Json json = *json_fields::parse_document(print_bucket(bucket));
@@ -29,7 +29,7 @@ Json bucket_json(const Bucket& bucket, const std::string& today) {
   return json;
 }
 
-// The last line that says something.
+// The last line that is not empty.
 std::string last_line(const std::string& text) {
   const std::size_t end = text.find_last_not_of(" \n");
   if (end == std::string::npos) return "";

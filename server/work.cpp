@@ -20,8 +20,8 @@ namespace {
 using json_fields::Json;
 
 constexpr std::string_view kKinds[] = {"model", "play", "judge", "evaluate", "model_file", "make_case"};
-constexpr double kSight_m = 8.0;  // ground that is shown around the start
-constexpr int kMostHold = 6000;   // as spec_fields.h has it
+constexpr double kSight_m = 8.0;  // radius of the shown ground around the start
+constexpr int kMostHold = 6000;   // as in spec_fields.h
 
 }  // namespace
 
@@ -45,7 +45,7 @@ std::string print_issue(const Issue& issue) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-// Length of the head in one line, the head, the bytes.
+// The reply as text: the length of the head in one line, the head, the bytes.
 std::string print_reply(const Result<Reply>& reply) {
   if (reply) return std::to_string(reply->head.size()) + "\n" + reply->head + reply->bytes;
   return "issue\n" + print_issue(reply.issue());
@@ -74,7 +74,7 @@ void append(std::string& bytes, double value) {
   bytes.append(raw, sizeof raw);
 }
 
-// For each joint its place and rotation against its parent, which is what nodes of the .glb have.
+// The position and rotation of each joint relative to its parent, like the nodes of the .glb.
 std::string compact_frames(const Character& character, const Motion& motion) {
   std::string bytes;
   std::vector<Rigid> world(character.joints().size());
@@ -101,7 +101,7 @@ Json joints_json(const Character& character) {
   return all;
 }
 
-// Actions that aim, with the points that a part can aim with; of look_at there are none.
+// The aiming actions, with the points that a part can aim; look_at has none.
 Json aims_json(const Character& character, const Offers& offers) {
   Json all = Json::array();
   for (std::size_t p = 0; p < offers.size(); ++p)
@@ -172,7 +172,7 @@ Result<Done> refuse_long(int most_frames, const Task& task) {
   return too_long(most_frames, task);
 }
 
-// The longest time that the queue is dry before something comes into it.
+// The longest time for which the queue is empty between two sequences.
 int longest_gap(const Motion& motion) {
   int gap = 0, ended = 0;
   for (const QueueSpan& span : motion.queue) {
@@ -182,8 +182,8 @@ int longest_gap(const Motion& motion) {
   return gap;
 }
 
-// Frames to hold still so that the motion has `take_frames`, and does not end before the last interrupt. When the queue
-// runs dry does not depend on dynamics.
+// The number of frames to hold still, so that the motion has `take_frames` and does not end before the last interrupt.
+// Dynamics does not affect the time when the queue is empty.
 Result<int> hold_for(const Task& task, Generator& generator) {
   Spec plain = task.spec;
   plain.dynamics.mode = Mode::kinematic, plain.hold_frames = 0;

@@ -13,21 +13,21 @@
 namespace contort::server {
 
 enum class TaskKind {
-  model,       // the character and what is around it
+  model,       // the character and its surroundings
   play,        // frames
   judge,       // margins and findings
   evaluate,    // motion hash and findings
   model_file,  // .glb of the motion
-  make_case,   // of one finding
+  make_case,   // make a case from one finding
 };
 
 struct Task {
   TaskKind kind = TaskKind::evaluate;
   Spec spec;
-  int take_frames = 0;  // play: the motion holds still at its end until it has so many frames; else as the spec says
+  int take_frames = 0;  // play: the motion is held at its end until it has this many frames; 0: as in the spec
   int most_frames = 0;  // longer motions are refused
   std::string library;  // folder of a registered library; "": none
-  std::string check;    // make_case, and whose curve comes first
+  std::string check;    // make_case: the check of the finding; its curve comes first
   std::string subject;
   bool operator==(const Task&) const = default;
 };
@@ -66,7 +66,7 @@ class Worker {
   Result<Reply> run(const Task& task);
 
  private:
-  // The base generator with the descriptions of a registered folder.
+  // The base generator with the descriptions of a registered library.
   struct Registered {
     std::string folder;
     Library library;
@@ -76,7 +76,7 @@ class Worker {
   Generator& base_;
   CheckSettings settings_;
   std::string tool_;
-  std::unique_ptr<Registered> registered_;  // the one that was used last
+  std::unique_ptr<Registered> registered_;  // the library that was used last
 
   Result<Generator*> generator_of(const Task& task);
 };

@@ -1,5 +1,5 @@
-// A generator that is not the built-in one: three links on three hinges, and one action that turns all of them to an angle
-// within one frame. It says no intent.
+// A generator other than the built-in one: three links on three hinges, and one action that turns all of them to an
+// angle within one frame. It gives no intent.
 #pragma once
 
 #include "model/generator.h"

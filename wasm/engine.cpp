@@ -1,5 +1,5 @@
-// The functions that a page calls (docs/internals/wasm.md): what the report was made with, then specs; the data of a
-// case comes out, as the viewer of a report takes it.
+// The functions that a page calls (docs/internals/wasm.md). Their input is the report's descriptions, then specs; their
+// output is the data of a case for the report's viewer.
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,7 +15,7 @@ namespace {
 struct Engine {
   Library library = stock_library();
   CheckSettings settings;
-  std::string scripts;  // names of the actions that are left out because there is no Lua
+  std::string scripts;  // names of actions that are left out because there is no Lua
   std::unique_ptr<BuiltInGenerator> generator;
 };
 
@@ -52,7 +52,7 @@ std::string refused(const Issue& issue) {
                                                                        scripts));
 }
 
-// Plays the spec, and shows how the failure of that check and subject fares in it.
+// Plays the spec. The result shows the failure of this check and subject in it.
 std::string play(const std::string& spec_json, const std::string& check, const std::string& subject) {
   const Result<Spec> spec = parse_spec(spec_json);
   if (!spec) return refused(spec.issue());
@@ -70,9 +70,9 @@ std::string play(const std::string& spec_json, const std::string& check, const s
 
 }  // namespace contort
 
-// Both return a text that stays until the next call.
+// Both return a text that is valid until the next call.
 
-// Adds a description or the settings of checks. Returns "", or why it cannot.
+// Adds a description or the settings of checks. Returns "", or the reason why it cannot.
 extern "C" const char* contort_add(const char* json) {
   static std::string answer;
   const contort::Result<contort::Done> added = contort::add(json);

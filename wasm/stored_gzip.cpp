@@ -1,5 +1,5 @@
-// Takes the place of renders/gzip.cpp where there is no zlib: the same format, with nothing made smaller. The data goes
-// from the engine to the viewer in one page, so its size does not matter.
+// Replaces renders/gzip.cpp without zlib: the same format, without compression. The data stays in one page, from the
+// engine to the viewer, so its size does not matter.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace contort {
 
 namespace {
 
-// RFC 1952, section 8.
+// The checksum of RFC 1952, section 8.
 std::uint32_t checksum(std::span<const std::byte> bytes) {
   std::uint32_t sum = 0xffffffffU;
   for (const std::byte byte : bytes) {
@@ -20,7 +20,7 @@ std::uint32_t checksum(std::span<const std::byte> bytes) {
   return ~sum;
 }
 
-// The lowest byte first.
+// Appends bytes, the lowest one first.
 void append(std::vector<std::byte>& out, std::uint32_t value, int size) {
   for (int i = 0; i < size; ++i) out.push_back(static_cast<std::byte>(value >> (8 * i)));
 }

@@ -1,3 +1,3 @@
-// TinyGLTF itself, which natively is a library of Debian's.
+// TinyGLTF itself, which is a library of the system in native builds.
 #define TINYGLTF_IMPLEMENTATION
 #include <tiny_gltf.h>

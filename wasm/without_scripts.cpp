@@ -1,4 +1,4 @@
-// Takes the place of generator/actions/script.cpp where there is no Lua: actions that have a script are refused.
+// Replaces generator/actions/script.cpp without Lua: actions with a script are refused.
 #include "generator/actions/script.h"
 
 namespace contort {

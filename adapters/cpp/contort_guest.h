@@ -38,7 +38,7 @@ struct Refused : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// A JSON value. `true` is the number 1 and `false` 0. Fields that are not there read as an empty value.
+// A JSON value. `true` is the number 1 and `false` 0. Missing fields read as an empty value.
 struct Json {
   double number = 0.0;
   std::string text;
@@ -124,7 +124,7 @@ struct Use {
   double start_s = 0.0, duration_s = 0.0;
   Json params;  // params["angle_deg"].number, params["target"].vec3(), params["clip"].text
 
-  // The share of the action that is over: 0 before and at its start, 1 at its end and after it.
+  // The fraction of the action that is over: 0 until its start, 1 from its end on.
   double progress(double time_s) const {
     if (time_s >= start_s + duration_s) return 1.0;
     return time_s <= start_s ? 0.0 : (time_s - start_s) / duration_s;
@@ -156,7 +156,7 @@ class Motion {
 
   int frames() const { return static_cast<int>(values_.size() / width_); }
 
-  // The row of a frame: the position of the root, then x, y, z, w for each joint in the order of the manifest.
+  // The row of a frame: the position of the root, then x, y, z, w for each joint in the manifest's order.
   double* row(int frame) { return values_.data() + width_ * static_cast<std::size_t>(frame); }
 
   void set(int frame, int joint, const Quat& q) {
@@ -202,7 +202,7 @@ inline const Json& joints_of(const Json& manifest, const std::string& character)
   throw std::runtime_error("there is no character '" + character + "'");
 }
 
-// The stream to Contort. Whatever the program prints from now on goes to standard error.
+// The stream to Contort. Later output of the program goes to standard error.
 inline std::FILE* take_stdout() {
   std::fflush(stdout);
 #ifdef _WIN32

@@ -10,7 +10,7 @@
 
 namespace {
 
-// The hinge of a body, or -1 for a body that is fixed to its parent.
+// The hinge of a body; -1 if the body is fixed to its parent.
 int hinge_of(const mjModel& model, int body) {
   const int joint = model.body_jntnum[body] == 1 ? model.body_jntadr[body] : -1;
   return joint >= 0 && model.jnt_type[joint] == mjJNT_HINGE ? joint : -1;

@@ -55,7 +55,7 @@ void AddRow(const USkeletalMeshComponent& Mesh, TArray<uint8>& Bytes) {
   }
 }
 
-// Carries out one use of an action. Add your own actions here.
+// Performs one use of an action. Add your own actions here.
 void Begin(USkeletalMeshComponent& Mesh, const FJsonObject& Use) {
   if (Use.GetStringField(TEXT("action")) != TEXT("play")) return;
   const FString Clip = Use.GetObjectField(TEXT("params"))->GetStringField(TEXT("clip"));
@@ -65,7 +65,7 @@ void Begin(USkeletalMeshComponent& Mesh, const FJsonObject& Use) {
 TArray<uint8> Generate(USkeletalMeshComponent& Mesh, const FJsonObject& Message) {
   TArray<uint8> Bytes;
   const TArray<TSharedPtr<FJsonValue>>& Timeline = Message.GetArrayField(TEXT("timeline"));
-  Mesh.InitAnim(true);  // Each request begins afresh.
+  Mesh.InitAnim(true);  // resets the animation for each request
   int32 Next = 0;
   for (int32 Frame = 0; Frame < Message.GetIntegerField(TEXT("frames")); ++Frame) {
     for (; Next < Timeline.Num() && Timeline[Next]->AsObject()->GetIntegerField(TEXT("start_frame")) <= Frame; ++Next)

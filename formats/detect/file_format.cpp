@@ -36,7 +36,7 @@ std::string_view without_mark_and_blanks(std::string_view text) {
   return text;
 }
 
-// Acclaim's files begin with comments; the first word after them opens a section.
+// Acclaim's files begin with comments. The first word after them opens a section.
 FileFormat acclaim_format(std::string_view text) {
   while (text.starts_with('#')) {
     text.remove_prefix(std::min(text.find('\n'), text.size()));
@@ -48,7 +48,7 @@ FileFormat acclaim_format(std::string_view text) {
   return is_one_of(":fully-specified", ":degrees") ? FileFormat::amc : FileFormat::none;
 }
 
-// It says what it is anywhere: "asset" may be the last of its keys. Only then is it worth a parser's time.
+// Searches the whole text for "asset", which may be its last key, before parsing, which takes longer.
 bool is_gltf_text(const std::string& path) {
   const Result<std::string> text = read_file(path, json_fields::kMaxDocumentBytes);
   if (!text || text->find("\"asset\"") == text->npos || !scan_json(*text)) return false;

@@ -24,7 +24,7 @@ const KindRow& row(ElementKind kind) { return kKinds[static_cast<std::size_t>(ki
 
 Issue bad_accessor(const std::string& pointer, const std::string& text) { return {"gltf.bad_accessor", pointer, text}; }
 
-// 0 for what is no component type.
+// Returns 0 for an unknown component type.
 std::size_t component_bytes(int type) {
   switch (type) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
@@ -65,7 +65,7 @@ double component_value(const unsigned char* bytes, int type, bool normalized) {
   }
 }
 
-// Elements in a buffer view: where the first one is, and how far apart they are.
+// The layout of elements in a buffer view: the place of the first one, and their distance.
 struct Layout {
   int view = -1;
   std::size_t offset = 0;  // from the view's start
@@ -80,7 +80,7 @@ struct Elements {
   const unsigned char* at(std::size_t i) const { return first + i * stride; }
 };
 
-// The view's bytes, checked against its buffer. Written without sums that could overflow.
+// The view's bytes, checked against its buffer without sums that could overflow.
 Result<std::pair<const unsigned char*, std::size_t>> view_bytes(const tinygltf::Model& model, int view_index) {
   const std::string pointer = "/bufferViews/" + std::to_string(view_index);
   const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(view_index)];
@@ -136,7 +136,7 @@ Result<Done> check_finite(const std::vector<double>& values, std::size_t compone
                    std::to_string(position / components) + " is NaN or infinite"};
 }
 
-// The index that each replacing element goes to: ascending, within the accessor.
+// The index that each sparse element replaces: ascending, within the accessor.
 Result<std::vector<std::size_t>> sparse_targets(const tinygltf::Model& model, const tinygltf::Accessor& accessor,
                                                 const std::string& pointer) {
   const auto& indices = accessor.sparse.indices;
@@ -202,7 +202,7 @@ Result<Done> AccessorReader::apply_sparse(const tinygltf::Accessor& accessor, co
   decode(*elements, targets->size(), components, accessor, replacing);
   for (std::size_t i = 0; i < replacing.size(); ++i) {
     const std::size_t target = (*targets)[i / components] * components + i % components;
-    if (target < values.size()) values[target] = replacing[i];  // `values` may be the first few elements only
+    if (target < values.size()) values[target] = replacing[i];  // `values` may have only the first elements
   }
   return Done{};
 }

@@ -17,7 +17,7 @@ namespace contort {
 
 enum class ElementKind : std::uint8_t { scalar, vec3, vec4, mat4 };
 
-// Integers that may stand for numbers beside 32-bit floats: none, fractions of [-1, 1], or any of up to 16 bits, as
+// Integers that are allowed in place of 32-bit floats: none, fractions of [-1, 1], or any of up to 16 bits, as
 // positions by KHR_mesh_quantization.
 enum class Integers : std::uint8_t { none, normalized, any };
 
@@ -33,9 +33,8 @@ class AccessorReader {
   std::size_t count(int accessor) const;
   bool has_data(int accessor) const;
 
-  // Reads the first `count` elements (at most all), component by component, all finite: 32-bit floats and
-  // the integers that are allowed. Codes gltf.bad_accessor, .bad_index, .truncated,
-  // .not_finite, .too_large (see kMaxGltfNumbers).
+  // Reads the first `count` elements (at most all), component by component, all finite: 32-bit floats and the allowed
+  // integers. Codes gltf.bad_accessor, .bad_index, .truncated, .not_finite, .too_large (see kMaxGltfNumbers).
   Result<std::vector<double>> read(int accessor, ElementKind kind, std::size_t count,
                                    Integers integers = Integers::none);
 

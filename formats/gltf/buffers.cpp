@@ -24,7 +24,7 @@ int hex_digit(char c) {
   return -1;
 }
 
-// "%20" to " ". False where the escapes are broken or hide a zero byte, which would cut the path short.
+// Decodes "%20" to " ". Returns false if the escapes are broken or contain a zero byte, which would cut the path short.
 bool percent_decode(const std::string& uri, std::string& out) {
   for (std::size_t i = 0; i < uri.size(); ++i) {
     char c = uri[i];
@@ -39,15 +39,15 @@ bool percent_decode(const std::string& uri, std::string& out) {
   return !out.empty();
 }
 
-// A plain relative path downwards: no scheme or drive, no root, no "..", no backslash.
+// Returns true for a plain relative path downwards: no scheme or drive, no root, no "..", no backslash.
 bool stays_below(const std::string& path) {
   if (path.front() == '/' || path.find('\\') != std::string::npos || path.find(':') != std::string::npos) return false;
   const fs::path parts(path);
   return std::find(parts.begin(), parts.end(), "..") == parts.end();
 }
 
-// The file that `uri` names, once it is certain to lie in the folder. A symbolic link inside the folder may lead to
-// another place inside it, and nowhere else.
+// The path of the file `uri`, after checking that it lies in the folder. A symbolic link inside the folder may lead to
+// another place inside it, but not out of it.
 Result<std::string> locate(const std::string& uri, const std::string& folder, const std::string& pointer) {
   std::string relative;
   if (!percent_decode(uri, relative)) return bad_uri(pointer, "the URI is empty or has broken % escapes");
@@ -100,7 +100,7 @@ Result<std::vector<Bytes>> load_buffers(std::span<const BufferRef> buffers, cons
     const std::string pointer = "/buffers/" + std::to_string(out.size());
     Result<Bytes> loaded = load_buffer(buffer, out.empty(), source, pointer);
     if (!loaded) return loaded.issue();
-    total += loaded->size();  // all that was read: thousands of buffers may be the first bytes of one large file
+    total += loaded->size();  // size of all buffers together: thousands of them may refer to one large file
     if (total > kMaxGltfBytes)
       return Issue{"gltf.too_large", pointer,
                    "the buffers have more than the allowed " + std::to_string(kMaxGltfBytes) + " bytes in all"};

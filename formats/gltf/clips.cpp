@@ -68,7 +68,7 @@ Result<Done> check_times(const std::vector<double>& times, const std::string& po
   return Done{};
 }
 
-// The rotation that is farthest from unit length.
+// The rotation whose length differs most from 1.
 struct WorstLength {
   std::size_t key = 0;
   double length = 1.0;
@@ -76,9 +76,9 @@ struct WorstLength {
   bool is_unit() const { return std::fabs(length - 1.0) <= kUnitTolerance; }
 };
 
-constexpr double kNoLength = 1e-6;  // a rotation that short has no direction
+constexpr double kNoLength = 1e-6;  // a shorter quaternion has no direction
 
-// Makes the rotations exactly unit; tangents stay. One without a direction becomes the key before it.
+// Normalises the rotations, but not the tangents. A rotation without a direction is replaced by the key before it.
 WorstLength normalize_rotations(AssetChannel& channel) {
   const bool is_spline = channel.interpolation == Interpolation::cubic_spline;
   WorstLength worst;
@@ -111,7 +111,8 @@ class ClipReader {
       if (!read && faults_ == Faults::refuse) return read.issue();
       if (!read) asset_.faults.push_back(fault_of(read.issue(), out.label, channel.target_node));
       for (std::size_t f = known; f < asset_.faults.size(); ++f) asset_.faults[f].clip = out.label;
-      if (read && !read->times_s.empty()) out.channels.push_back(std::move(read).value());  // else nothing is said
+      // A channel without keys has no effect.
+      if (read && !read->times_s.empty()) out.channels.push_back(std::move(read).value());
     }
     return Done{};
   }
@@ -156,7 +157,7 @@ class ClipReader {
   }
 
   Result<Done> read_times(int accessor, std::size_t keys, AssetChannel& out) {
-    if (!accessors_.has_data(accessor)) return Done{};  // a place that some extension fills in
+    if (!accessors_.has_data(accessor)) return Done{};  // an extension's data, which are not read
     Result<std::vector<double>> times = accessors_.read(accessor, ElementKind::scalar, keys);
     if (!times) return times.issue();
     out.times_s = std::move(times).value();
@@ -187,7 +188,7 @@ class ClipReader {
   AccessorReader& accessors_;
   std::string pointer_;
   Faults faults_;
-  Asset& asset_;  // whose faults are listed
+  Asset& asset_;  // receives the faults
   std::set<std::pair<int, ChannelPath>> targets_;
 };
 
@@ -199,7 +200,7 @@ void find_range(AssetClip& clip) {
   }
 }
 
-// Remarks key times that the standard forbids and that are read nevertheless.
+// Adds remarks about key times that the standard forbids and that are read nevertheless.
 void remark_times(const AssetClip& clip, std::vector<Remark>& remarks) {
   const auto has_twins = [](const AssetChannel& c) { return std::ranges::adjacent_find(c.times_s) != c.times_s.end(); };
   if (clip.first_s < 0.0)
@@ -219,7 +220,7 @@ Result<Done> read_skins(const tinygltf::Model& model, AccessorReader& accessors,
     if (!joints) return joints.issue();
     AssetSkin read = std::move(joints).value();
     Result<std::vector<Mat4>> matrices = read_bind_matrices(skin, accessors, pointer);
-    const bool has_clip = !model.animations.empty();  // that could tell of it
+    const bool has_clip = !model.animations.empty();  // without a clip, nothing could report the fault
     if (!matrices && (faults == Faults::refuse || !has_clip)) return matrices.issue();
     if (!matrices) asset.faults.push_back(fault_of(matrices.issue(), "", -1));
     if (matrices) read.joint_from_mesh = std::move(matrices).value();

@@ -55,7 +55,7 @@ Result<Chunk> chunk_at(std::span<const std::byte> bytes, std::size_t offset, int
   return Chunk{u32_at(bytes, offset + 4), bytes.subspan(offset + kChunkHeaderBytes, length)};
 }
 
-// JSON first, then at most one BIN; chunks of other kinds may follow and are ignored, as the standard asks.
+// JSON comes first, then at most one BIN. Chunks of other kinds may follow and are ignored, as the standard requires.
 Result<Done> take_chunk(const Chunk& chunk, int index, GltfContainer& out) {
   if (index == 0 && chunk.type != kJsonChunk) return Issue{"gltf.bad_chunk", "", "chunk 0 is not JSON"};
   if (index == 0) out.json = {reinterpret_cast<const char*>(chunk.data.data()), chunk.data.size()};
@@ -70,7 +70,7 @@ Result<Done> take_chunk(const Chunk& chunk, int index, GltfContainer& out) {
   return Done{};
 }
 
-// Follows brackets and commas outside of texts; knows no more of JSON than that.
+// Counts brackets and commas outside of texts, and ignores all other JSON syntax.
 class JsonScan {
  public:
   void feed(char c) {

@@ -1,4 +1,4 @@
-// The outermost layer: splits bytes into JSON text and binary chunk. It trusts nothing.
+// The outermost layer: splits bytes into JSON text and binary chunk. It trusts no field of the file.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ struct GltfContainer {
   std::string_view json;
   std::span<const std::byte> bin;  // The GLB's binary chunk.
   bool has_bin = false;
-  std::size_t bytes_after = 0;  // behind the end that the GLB's header tells; nobody reads them
+  std::size_t bytes_after = 0;  // bytes after the end that the GLB's header declares; they are not read
 };
 
 bool is_glb(std::span<const std::byte> bytes);

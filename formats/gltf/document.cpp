@@ -16,7 +16,7 @@ namespace {
 
 using json_fields::Json;
 
-// ---- what glTF allows, for the properties that we read; all others are removed
+// ---- glTF's rules for the properties that we read; all others are removed
 
 enum class Kind { text, flag, integer, index, index_list, number_list, text_list, object, object_list };
 
@@ -30,7 +30,7 @@ struct Field {
   std::span<const Field> fields{};
 };
 
-// Fits a double, and sums of a few do not overflow; real bounds are checked against the buffers (accessor.cpp).
+// Fits a double, and sums of a few do not overflow. The real bounds are checked against the buffers (accessor.cpp).
 constexpr std::int64_t kMaxOffset = std::int64_t{1} << 53;
 constexpr std::int64_t kMaxInt = std::numeric_limits<std::int32_t>::max();
 constexpr std::int64_t kAnyCount = static_cast<std::int64_t>(kMaxGltfValues);
@@ -74,7 +74,7 @@ constexpr Field kNode[] = {text("name"),
 constexpr Field kSkin[] = {text("name"), index("inverseBindMatrices", "accessors"), index("skeleton", "nodes"),
                            index_list("joints", "nodes", kRequired)};
 constexpr Field kTarget[] = {index("node", "nodes"), text("path", kRequired)};
-// A channel's sampler counts within its own animation: checked in clips.cpp.
+// The index of a channel's sampler refers to its own animation, so clips.cpp checks it.
 constexpr Field kChannel[] = {integer("sampler", 0, kMaxInt, kRequired), object("target", kTarget, kRequired)};
 constexpr Field kSampler[] = {index("input", "accessors", kRequired), index("output", "accessors", kRequired),
                               text("interpolation")};
@@ -85,7 +85,8 @@ constexpr Field kSparseIndices[] = {index("bufferView", "bufferViews", kRequired
 constexpr Field kSparseValues[] = {index("bufferView", "bufferViews", kRequired), integer("byteOffset", 0, kMaxInt)};
 constexpr Field kSparse[] = {integer("count", 1, kMaxInt, kRequired), object("indices", kSparseIndices, kRequired),
                              object("values", kSparseValues, kRequired)};
-// 0 elements break the standard, but have one harmless meaning: nothing. Files with empty channels have them.
+// The standard forbids 0 elements, but their only meaning is harmless: nothing. Files with empty channels have such
+// accessors.
 constexpr Field kAccessor[] = {index("bufferView", "bufferViews"),
                                integer("byteOffset", 0, kMaxOffset),
                                integer("componentType", 5120, 5126, kRequired),
@@ -113,11 +114,11 @@ constexpr Field kRoot[] = {object("asset", kAsset, kRequired),
                            objects("accessors", kAccessor),
                            objects("bufferViews", kBufferView),
                            objects("buffers", kBuffer),
-                           objects("meshes", kMesh)};  // last: only read where asked for
+                           objects("meshes", kMesh)};  // last: only read on request
 
 // ---- checking against the tables
 
-// The place where the checker stands. Written out only when something is wrong.
+// The checker's position in the document. It is printed only in messages.
 struct Place {
   const Place* parent = nullptr;
   std::string_view key;
@@ -129,7 +130,7 @@ std::string pointer_to(const Place& place) {
   return pointer_to(*place.parent) + "/" + (place.index < 0 ? std::string(place.key) : std::to_string(place.index));
 }
 
-// A value for a message: short, one line, plain ASCII.
+// A value as short plain ASCII text in one line, for messages.
 std::string shown(const Json& value) {
   if (value.is_array()) return "a list of " + std::to_string(value.size());
   if (value.is_object()) return "an object";
@@ -192,7 +193,7 @@ class Checker {
     return Done{};
   }
 
-  // 5126.0 is an integer, as in JSON Schema. tinygltf thinks otherwise, so it is rewritten.
+  // 5126.0 is an integer, as in JSON Schema. tinygltf does not accept it, so it is rewritten.
   static bool make_integer(Json& value) {
     if (!value.is_number()) return false;
     const double number = value.get<double>();
@@ -251,7 +252,7 @@ class Checker {
   std::map<std::string, std::int64_t, std::less<>> sizes_;
 };
 
-// ---- rules that are no table
+// ---- rules that the tables cannot express
 
 Result<Json> parse(std::string_view text) {
   try {
@@ -263,7 +264,7 @@ Result<Json> parse(std::string_view text) {
   }
 }
 
-// Digits of `text` before and after one dot, small enough to compare.
+// Reads the digits before and after one dot; they must be small enough to compare.
 bool read_version(const std::string& text, int& major, int& minor) {
   const std::size_t dot = text.find('.');
   const auto digits = [](std::string_view t) {
@@ -275,7 +276,7 @@ bool read_version(const std::string& text, int& major, int& minor) {
   return true;
 }
 
-// Any 2.x may be read as 2.0, unless it says that it needs a newer reader.
+// Any 2.x may be read as 2.0, unless the file requires a newer reader.
 Result<Done> check_version(const Json& asset) {
   int major = 0;
   int minor = 0;
@@ -334,7 +335,7 @@ std::vector<BufferRef> take_buffers(Json& root) {
   return out;
 }
 
-// tinygltf drops a channel without a target node, and every later channel would change its number.
+// tinygltf drops a channel without a target node, which would change the number of every later channel.
 void mark_channels_without_node(Json& root) {
   if (!root.contains("animations")) return;
   for (Json& animation : root["animations"])

@@ -1,5 +1,5 @@
-// The JSON layer: every value that we read has the type, range and target that glTF asks for, or the file is refused
-// with a pointer to it. tinygltf drops such values in silence, and crashes on some.
+// The JSON layer: every value that we read must have the type, range and target that glTF requires; otherwise the file
+// is refused with a pointer to the value. tinygltf drops such values silently, and crashes on some.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ struct BufferRef {
 };
 
 struct GltfDocument {
-  // glTF again, but only what we read: no images, extensions or extras, and meshes only where they are asked for, so
-  // that no parser meets a hostile one. No buffers either; those are in `buffers`.
+  // The document reduced to the values that we read: no images, extensions or extras, and meshes only on request, so
+  // that no parser reads hostile ones. No buffers either; those are in `buffers`.
   std::string json;
   std::vector<BufferRef> buffers;
   GltfExtensions extensions;

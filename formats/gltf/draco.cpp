@@ -22,7 +22,8 @@ std::string pointer_of(const DracoPrimitive& primitive) {
          "/extensions/KHR_draco_mesh_compression";
 }
 
-// Seven bits in each byte, the lowest first; the highest bit says that more follow.
+// Reads a number with seven bits in each byte, the lowest first. The highest bit of a byte means that more bytes
+// follow.
 std::uint64_t take_varint(DracoBytes& bytes) {
   std::uint64_t value = 0;
   for (int shift = 0; !bytes.empty() && shift < 63; shift += 7) {
@@ -34,8 +35,9 @@ std::uint64_t take_varint(DracoBytes& bytes) {
   return value;
 }
 
-// The decoder takes memory for as many triangles and vertices as the header tells, so that they are compared before
-// with what the accessors tell and with what so few bytes can hold. Draco's bitstream 2.2, as glTF asks.
+// The decoder takes memory for the triangles and vertices that the header declares. So these counts are first compared
+// with the accessors, and with the greatest number that so few bytes can hold. Only Draco's bitstream 2.2, which glTF
+// requires, is accepted.
 bool has_plain_header(DracoBytes bytes) {
   constexpr std::uint64_t kMostFacesPerByte = 64;
   if (bytes.size() < 12 || std::memcmp(bytes.data(), "DRACO\2\2\1", 8) != 0) return false;
@@ -68,12 +70,12 @@ Result<std::unique_ptr<draco::Mesh>> decode_mesh(const DracoPrimitive& primitive
     draco::Decoder decoder;
     auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
     if (decoded.ok()) return std::move(decoded).value();
-  } catch (const std::exception&) {  // of memory
+  } catch (const std::exception&) {  // there was not enough memory
   }
   return bad_compression(pointer_of(primitive), "the compressed bytes cannot be decoded");
 }
 
-// New data for an accessor.
+// Stores new data for an accessor.
 template <class Number>
 void give_data(const std::vector<Number>& values, int component_type, std::size_t count, int accessor,
                tinygltf::Model& model) {
@@ -106,7 +108,7 @@ bool read_values(const draco::Mesh& mesh, const draco::PointAttribute& attribute
   return true;
 }
 
-// Joints are whole numbers, all others 32-bit floats.
+// Joints are integers; all other attributes are 32-bit floats.
 Result<Done> fill_attribute(const DracoPrimitive& primitive, const draco::Mesh& mesh, const std::string& name,
                             std::uint64_t id, int accessor, tinygltf::Model& model) {
   const draco::PointAttribute* attribute =

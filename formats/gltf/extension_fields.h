@@ -7,8 +7,9 @@
 
 namespace contort {
 
-// Takes them out of the root of a document. Pointers to the translation, rotation, scale and weights of nodes become
-// plain targets, and the indices of Draco's primitives are removed. Codes gltf.wrong_type, .missing, .bad_pointer.
+// Removes the extensions from the root of a document and returns them. Pointers to the translation, rotation, scale and
+// weights of nodes become plain targets, and the indices of Draco's primitives are removed. Codes gltf.wrong_type,
+// .missing, .bad_pointer.
 Result<GltfExtensions> take_extensions(json_fields::Json& root, bool with_meshes);
 
 }  // namespace contort

@@ -12,19 +12,19 @@ using json_fields::Json;
 
 constexpr std::uint64_t kMostOfExtension = std::uint64_t{1} << 53;
 
-// The value of a key, null where the value is no object or has no such key.
+// The value of a key; null if the value is no object or has no such key.
 Json* member(Json& value, const char* key) {
   const auto found = value.is_object() ? value.find(key) : Json::iterator();
   return value.is_object() && found != value.end() ? &*found : nullptr;
 }
 
-// The extension of that name, null where the value has none.
+// The extension of that name; null if the value has none.
 Json* extension(Json& value, const char* name) {
   Json* all = member(value, "extensions");
   return all == nullptr ? nullptr : member(*all, name);
 }
 
-// Calls `visit` with each entry of a list of the root, with its number, until there is an issue.
+// Calls `visit` with each entry of a list of the root, and its index, until there is an issue.
 template <class Visit>
 Result<Done> each(Json& of, const char* list, Visit visit) {
   Json* entries = member(of, list);
@@ -34,7 +34,7 @@ Result<Done> each(Json& of, const char* list, Visit visit) {
   return Done{};
 }
 
-// Reads a whole number >= 0 of an extension, or leaves the value where there is none and none is needed.
+// Reads a whole number >= 0 of an extension. A missing number that is not required keeps its value.
 Result<Done> take_number(Json& from, const char* key, bool required, const std::string& pointer, std::uint64_t& out) {
   const Json* value = member(from, key);
   if (value == nullptr && !required) return Done{};
@@ -96,7 +96,7 @@ Result<Done> take_primitive(Json& primitive, std::size_t mesh, std::size_t index
 
 // ---- KHR_animation_pointer
 
-// "/nodes/3/rotation": the node and the property. False for what is no property of a node.
+// Splits "/nodes/3/rotation" into node and property. Returns false for any other target.
 bool split_pointer(const std::string& pointer, std::uint64_t& node, std::string& path) {
   constexpr std::string_view kNodes = "/nodes/";
   constexpr std::array<std::string_view, 4> kPaths = {"translation", "rotation", "scale", "weights"};
@@ -144,7 +144,7 @@ Result<GltfExtensions> take_extensions(Json& root, bool with_meshes) {
   const auto views =
       each(root, "bufferViews", [&](Json& view, std::size_t i) { return take_view(view, i, out.views); });
   if (!views) return views.issue();
-  const char* list = with_meshes ? "meshes" : "";  // nobody looks at them
+  const char* list = with_meshes ? "meshes" : "";  // meshes are not read otherwise
   const auto meshes = each(root, list, [&](Json& mesh, std::size_t m) {
     return each(mesh, "primitives",
                 [&](Json& primitive, std::size_t i) { return take_primitive(primitive, m, i, out.primitives); });

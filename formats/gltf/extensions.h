@@ -1,5 +1,5 @@
-// Extensions that say where numbers are: compressed views and meshes, and channels that name their target by a pointer.
-// They are taken out of the document before anything else reads it, so that other code knows plain glTF alone.
+// Extensions about the place of data: compressed views and meshes, and channels that name their target by a pointer.
+// They are removed from the document before any other code reads it, so that other code only needs plain glTF.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +26,8 @@ struct DracoPrimitive {
   std::size_t mesh = 0;
   std::size_t primitive = 0;
   std::uint64_t view = 0;
-  std::int64_t indices = -1;                        // the accessor; -1 where there is none
-  std::map<std::string, std::uint64_t> attributes;  // numbers of Draco's attributes
+  std::int64_t indices = -1;                        // index of the accessor; -1 if there is none
+  std::map<std::string, std::uint64_t> attributes;  // Draco's numbers of the attributes
 };
 
 struct GltfExtensions {

@@ -21,8 +21,8 @@ bool decompose(std::span<const double> matrix, Trs& out);
 Result<Done> read_nodes(const tinygltf::Model& model, Asset& asset);
 
 enum class Faults : std::uint8_t {
-  refuse,     // the first one ends the reading
-  go_around,  // those of clips and bind matrices are listed in Asset::faults, and the rest is read
+  refuse,     // the first fault ends the reading
+  go_around,  // faults of clips and bind matrices are listed in Asset::faults, and everything else is read
 };
 
 // Fills skins and AssetNode::is_joint. Codes gltf.bad_skin and those of AccessorReader.

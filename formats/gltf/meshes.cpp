@@ -75,7 +75,7 @@ class PrimitiveReader {
       for (double& weight : vertex.weights) weight /= sum;
   }
 
-  // Lists, strips and fans to triangles.
+  // Converts lists, strips and fans to triangles.
   Result<Done> read_triangles(std::size_t first, std::size_t count, SkinnedMesh& out) {
     std::vector<int> order(count);
     for (std::size_t i = 0; i < count; ++i) order[i] = static_cast<int>(i);

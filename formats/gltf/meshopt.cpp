@@ -12,7 +12,7 @@ namespace {
 
 using PackedBytes = std::span<const unsigned char>;
 
-// The decoders trust their arguments, whose limits the extension tells.
+// The decoders do not check their arguments. The extension defines their limits.
 bool may_be_decoded(const CompressedView& view) {
   const bool is_vertices = view.mode == "ATTRIBUTES";
   const bool is_indices = view.mode == "INDICES" || (view.mode == "TRIANGLES" && view.count % 3 == 0);

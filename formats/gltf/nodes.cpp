@@ -19,7 +19,8 @@ std::string node_pointer(std::size_t node) { return "/nodes/" + std::to_string(n
 
 using Axes = std::array<Vec3, 3>;
 
-// Directions for the columns of scale 0, at right angles to the others: any will do, the scale hides them.
+// Completes columns of scale 0 with directions at right angles to the others. Any will do, because the scale hides
+// them.
 void complete(Axes& axes, const std::array<bool, 3>& known) {
   const int count = known[0] + known[1] + known[2];
   if (count == 0) axes = {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
@@ -32,7 +33,7 @@ void complete(Axes& axes, const std::array<bool, 3>& known) {
   }
 }
 
-// Real exporters write 32-bit products of several rotations: off by 1e-6. A shear that matters is larger.
+// Exporters write products of several 32-bit rotations, with errors of 1e-6. A shear that matters is larger.
 bool are_perpendicular(const Axes& axes) {
   constexpr double kTolerance = 1e-3;
   return std::fabs(glm::dot(axes[0], axes[1])) < kTolerance && std::fabs(glm::dot(axes[1], axes[2])) < kTolerance &&
@@ -43,7 +44,7 @@ bool last_row_is_affine(std::span<const double> m) {
   return std::fabs(m[3]) + std::fabs(m[7]) + std::fabs(m[11]) + std::fabs(m[15] - 1.0) < 1e-6;
 }
 
-// False for a quaternion too far from unit length to be a rotation; the standard allows no others.
+// Returns false for a quaternion whose length differs too much from 1 for a rotation; the standard requires 1.
 bool read_unit(const std::vector<double>& xyzw, Quat& out) {
   const double length = std::sqrt(xyzw[0] * xyzw[0] + xyzw[1] * xyzw[1] + xyzw[2] * xyzw[2] + xyzw[3] * xyzw[3]);
   if (!(std::fabs(length - 1.0) <= kUnitTolerance)) return false;
@@ -91,7 +92,7 @@ Result<Done> read_parents(const tinygltf::Model& model, Asset& asset) {
   return Done{};
 }
 
-// Parents before children, with a stack of our own: a file may nest as deep as it has nodes.
+// Visits parents before children, with a stack of our own, because a file may nest as deep as it has nodes.
 void visit_tree(const tinygltf::Model& model, int root, std::vector<int>& order) {
   std::vector<int> open = {root};
   while (!open.empty()) {
@@ -103,7 +104,7 @@ void visit_tree(const tinygltf::Model& model, int root, std::vector<int>& order)
   }
 }
 
-// With one parent each, the nodes that no root leads to are those on a circle and below one.
+// Every node has at most one parent, so nodes that no root reaches are on a cycle or below one.
 Result<Done> read_order(const tinygltf::Model& model, Asset& asset) {
   for (std::size_t i = 0; i < asset.nodes.size(); ++i)
     if (asset.nodes[i].parent < 0) visit_tree(model, static_cast<int>(i), asset.order);

@@ -19,7 +19,7 @@ namespace contort {
 
 namespace {
 
-// The checked document names no file any more. Should tinygltf ask for one all the same, there is none.
+// The checked document refers to no file any more. If tinygltf opens one all the same, it finds none.
 tinygltf::FsCallbacks no_files() {
   tinygltf::FsCallbacks out{};
   out.FileExists = [](const std::string&, void*) { return false; };
@@ -29,13 +29,14 @@ tinygltf::FsCallbacks no_files() {
   return out;
 }
 
-// Always as text: tinygltf's own reader of GLB dies on three kinds of bad chunks, and container.cpp has read them.
+// The model is always passed as text: tinygltf's own reader of GLB crashes on three kinds of bad chunks, and
+// container.cpp has read them.
 Result<tinygltf::Model> to_model(const GltfDocument& document) {
   tinygltf::TinyGLTF loader;
   loader.SetFsCallbacks(no_files());
   loader.RemoveImageLoader();
   tinygltf::Model model;
-  std::string error;  // Both texts must be there: without them tinygltf writes through null on some errors.
+  std::string error;  // Both texts are needed: without them tinygltf writes through null on some errors.
   std::string warning;
   try {
     if (loader.LoadASCIIFromString(&model, &error, &warning, document.json.data(),
@@ -109,7 +110,7 @@ Result<SkinnedAsset> read_any(const std::string& path, Meshes meshes, Faults fau
   const auto bytes = std::as_bytes(std::span(*text));
   GltfContainer container{*text, {}, false, 0};
   const bool is_text = text->find_first_not_of(" \t\r\n") == text->find('{') && text->find('{') != text->npos;
-  if (is_glb(bytes) || (path.ends_with(".glb") && !is_text)) {  // the name matters for the message only
+  if (is_glb(bytes) || (path.ends_with(".glb") && !is_text)) {  // the name matters only for the message
     const Result<GltfContainer> split = split_glb(bytes);
     if (!split) return split.issue();
     container = *split;

@@ -11,7 +11,7 @@ using json_fields::Json;
 constexpr std::size_t kMaxBones = 200;  // VRM has 55
 constexpr std::size_t kMaxBoneName = 64;
 
-// Finds the value at a path of keys; null where there is none.
+// Finds the value at a path of keys; null if there is none.
 const Json* find(const Json& root, std::initializer_list<const char*> keys) {
   const Json* at = &root;
   for (const char* key : keys) {
@@ -38,7 +38,7 @@ class Reader {
     return Done{};
   }
 
-  // {"hips": {"node": 3}}
+  // Reads {"hips": {"node": 3}}.
   Result<Done> read_map(const Json& bones) {
     const std::string pointer = "/extensions/VRMC_vrm/humanoid/humanBones";
     if (!bones.is_object()) return Issue{"gltf.wrong_type", pointer, "allowed is an object"};
@@ -48,7 +48,7 @@ class Reader {
     return Done{};
   }
 
-  // [{"bone": "hips", "node": 3}]
+  // Reads [{"bone": "hips", "node": 3}].
   Result<Done> read_list(const Json& bones) {
     const std::string pointer = "/extensions/VRM/humanoid/humanBones";
     if (!bones.is_array()) return Issue{"gltf.wrong_type", pointer, "allowed is a list"};

@@ -14,7 +14,7 @@ namespace contort {
 
 namespace {
 
-// GLB lengths are 32 bits, and tinygltf does not look; far below that, no viewer would open the file anyway.
+// GLB lengths have 32 bits, and tinygltf does not check them. Viewers refuse much smaller files anyway.
 constexpr std::size_t kMaxOutputBytes = std::size_t{1} << 30;
 
 void append(std::vector<unsigned char>& bytes, std::uint32_t value, std::size_t size) {
@@ -57,7 +57,7 @@ int accessor_type(std::size_t components) {
   return components == 3 ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_VEC4;
 }
 
-// parent_from_node at rest; what is the standard's default is left out.
+// Writes parent_from_node at rest, except values that are the standard's defaults.
 void set_rest(tinygltf::Node& node, const Rigid& rest) {
   const Quat q = glm::normalize(rest.q);
   if (rest.p_m != Vec3(0.0)) node.translation = {rest.p_m.x, rest.p_m.y, rest.p_m.z};
@@ -91,7 +91,7 @@ Result<std::vector<std::byte>> to_bytes(const tinygltf::Model& model) {
   std::ostringstream stream;
   try {
     tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, false, true);
-  } catch (const std::exception&) {  // nlohmann-json, on a text that is not UTF-8: the only thing it refuses
+  } catch (const std::exception&) {  // nlohmann-json throws only for text that is not UTF-8
     return Issue{"gltf.bad_text", "", "a name, the case or the replay command is not UTF-8"};
   }
   const std::string text = std::move(stream).str();
@@ -99,7 +99,7 @@ Result<std::vector<std::byte>> to_bytes(const tinygltf::Model& model) {
   return std::vector<std::byte>(bytes.begin(), bytes.end());
 }
 
-// Generous: all joints as rotation and translation.
+// An upper estimate: all joints with rotation and translation.
 bool is_too_large(const Character& character, const Motion& motion) {
   const std::size_t per_frame = 4 + character.joints().size() * 7 * 4;
   return motion.frame_count > 0 && static_cast<std::size_t>(motion.frame_count) > kMaxOutputBytes / per_frame;
@@ -124,7 +124,7 @@ int add_floats(tinygltf::Model& model, std::span<const float> values, std::size_
 int add_indices(tinygltf::Model& model, std::span<const std::uint32_t> indices) {
   std::vector<unsigned char>& bytes = model.buffers[0].data;
   const std::size_t first = bytes.size();
-  // 65535 itself is kept free: it means "start over" to some renderers, and the standard forbids it.
+  // 65535 is not used: some renderers interpret it as "start over", and the standard forbids it.
   const bool is_short = std::all_of(indices.begin(), indices.end(), [](std::uint32_t i) { return i < 65535; });
   for (const std::uint32_t index : indices) append(bytes, index, is_short ? 2 : 4);
   tinygltf::Accessor accessor;

@@ -1,5 +1,5 @@
-// Writes a motion as .glb, for any viewer: one node per joint (of the same name and order), the character's mesh in one
-// plain material per colour, and one animation with a linear key for every frame, so that what is seen is what was
+// Writes a motion as .glb, for any viewer: one node per joint (of the same name and order), the character's mesh with
+// one plain material per colour, and one animation with a linear key for every frame, so that viewers show what was
 // checked. Equal input gives equal bytes.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace contort {
 
-// The origin of the motion. It goes into the scene's extras, which viewers show; "" is left out.
+// The origin of the motion. It goes into the scene's extras, which viewers show; empty texts are left out.
 struct GltfExtras {
   std::string case_id;
   std::string replay;  // The command that makes this motion again.
@@ -28,7 +28,7 @@ struct GltfExtras {
 Result<std::vector<std::byte>> write_glb(const Character& character, const Motion& motion, const GltfExtras& extras,
                                          std::optional<int> only_part = {});
 
-// Writes the .glb to a file, never half of one. Also code file.unwritable.
+// Writes the .glb to a file, completely or not at all. Also code file.unwritable.
 Result<Done> save_glb(const std::string& path, const Character& character, const Motion& motion,
                       const GltfExtras& extras, std::optional<int> only_part = {});
 

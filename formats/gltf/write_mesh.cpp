@@ -12,7 +12,7 @@ namespace {
 using Color = std::array<double, 3>;
 using Vertex = std::array<float, 6>;  // position, normal
 
-// The pieces of one joint in one colour.
+// All triangles of one joint in one colour.
 struct Surface {
   std::vector<float> positions_m;
   std::vector<float> normals;
@@ -28,8 +28,8 @@ Vertex to_vertex(const Vec3& position_m, const Vec3& normal) {
   return out;
 }
 
-// Equal corners of a piece are one vertex: round shapes shrink to a quarter. A map of its own for each piece, because
-// pieces share no corners and small maps are quick.
+// Equal corners of a piece become one vertex, which makes round shapes four times smaller. Each piece has its own map,
+// because pieces share no corners and small maps are fast.
 void add_triangles(Surface& surface, const Triangles& triangles) {
   std::map<Vertex, std::uint32_t> known;
   const std::size_t first = surface.positions_m.size() / 3;
@@ -47,7 +47,7 @@ int add_material(tinygltf::Model& model, const Color& color, std::map<Color, int
   const auto [place, is_new] = materials.try_emplace(color, static_cast<int>(model.materials.size()));
   if (!is_new) return place->second;
   tinygltf::Material material;
-  // A factor, not COLOR_0: both are linear in glTF, but viewers disagree more often about vertex colours.
+  // Uses a factor instead of COLOR_0. Both are linear in glTF, but viewers disagree more often about vertex colours.
   material.pbrMetallicRoughness.baseColorFactor = {color[0], color[1], color[2], 1.0};
   material.pbrMetallicRoughness.metallicFactor = 0.0;
   material.pbrMetallicRoughness.roughnessFactor = 0.75;
@@ -67,7 +67,7 @@ tinygltf::Primitive to_primitive(tinygltf::Model& model, const Surface& surface)
 }  // namespace
 
 void add_meshes(tinygltf::Model& model, const Character& character) {
-  std::map<int, std::map<Color, Surface>> surfaces;  // by joint, then by colour: always in the same order
+  std::map<int, std::map<Color, Surface>> surfaces;  // by joint, then by colour, so the order is always the same
   for (const MeshPiece& piece : character.mesh()) {
     const Color color = {piece.color.x, piece.color.y, piece.color.z};
     add_triangles(surfaces[piece.joint][color], tessellate(piece.shape));

@@ -16,7 +16,8 @@ bool travels(JointKind kind) { return kind == JointKind::root || kind == JointKi
 
 // The keys of one joint.
 struct Track {
-  std::vector<float> rotations;     // x y z w; neighbours never more than half a turn of the quaternion apart
+  // X y z w; the signs are chosen so that neighbours are less than half a turn apart as quaternions.
+  std::vector<float> rotations;
   std::vector<float> translations;  // x y z
   Quat last = kNoRotation;
 };
@@ -26,7 +27,7 @@ Rigid local_at(const Joint& joint, const Motion& motion, int frame) {
   return joint.parent_from_joint * joint_motion(joint, motion.row(frame));
 }
 
-// Written so that NaN fails.
+// Returns false for NaN.
 bool fits_float(double value) { return std::fabs(value) <= static_cast<double>(std::numeric_limits<float>::max()); }
 
 bool fits_float(const Rigid& r) {
@@ -41,7 +42,7 @@ Issue bad_value(const char* code, const Joint& joint, const Motion& motion, int 
   return {code, pointer, "frame " + std::to_string(frame) + ", joint \"" + joint.name + "\": " + what};
 }
 
-// q and -q are one rotation, but a linear track from one to the other goes the long way round in many viewers.
+// q and -q are the same rotation, but for a linear track from one to the other many viewers go the long way.
 Quat continued(const Quat& q, const Quat& last) { return glm::dot(q, last) < 0.0 ? -q : q; }
 
 Result<Done> add_key(Track& track, const Joint& joint, const Motion& motion, int frame) {
@@ -62,7 +63,8 @@ Result<Done> add_key(Track& track, const Joint& joint, const Motion& motion, int
 Result<std::vector<Track>> make_tracks(const Character& character, const Motion& motion) {
   const std::span<const Joint> joints = character.joints();
   std::vector<Track> tracks(joints.size());
-  for (int frame = motion.first_frame; frame < motion.frame_count; ++frame)  // frames outside: the first bad frame is the one reported
+  // The loop over frames is outside, so that the first bad frame is reported.
+  for (int frame = motion.first_frame; frame < motion.frame_count; ++frame)
     for (std::size_t i = 0; i < joints.size(); ++i)
       if (const auto added = add_key(tracks[i], joints[i], motion, frame); !added) return added.issue();
   return tracks;
@@ -72,7 +74,7 @@ Result<std::vector<float>> key_times(const Motion& motion) {
   std::vector<float> out;
   for (int frame = motion.first_frame; frame < motion.frame_count; ++frame) {
     out.push_back(static_cast<float>((frame - motion.first_frame) / motion.rate_hz));
-    // After hours at high rates, neighbouring frames become one 32-bit time.
+    // After hours at high rates, neighbouring frames get the same 32-bit time.
     if (frame > motion.first_frame && !(out.back() > out[out.size() - 2]))
       return Issue{"gltf.too_large", "/frame_count",
                    "32-bit times cannot tell frame " + std::to_string(frame) + " from the one before"};

@@ -14,14 +14,14 @@ namespace {
 
 constexpr MocapSyntax kAmcSyntax{.area = "amc", .alone = "", .blank = "", .comment = '#'};
 
-// A bone's place in a row.
+// The place of a bone's numbers in a row.
 struct BonePlace {
   const AsfBone* bone = nullptr;
   std::size_t first_dof = 0;
 };
 struct BonePlaces {
   std::map<std::string_view, BonePlace> of_bone;
-  std::int64_t turned_and_moved = 0;  // bones that turn, and those that move: each has keys
+  std::int64_t turned_and_moved = 0;  // number of bones that turn and of bones that move: each has keys
 };
 
 bool turns(const AsfBone& bone) {
@@ -43,7 +43,7 @@ BonePlaces places_of(const AsfSkeleton& skeleton) {
   return out;
 }
 
-// The frame's number, where a line is one whole number and nothing else.
+// Returns true if the word is a whole number; such a line is the number of a frame.
 bool is_frame_number(std::string_view word) {
   return !word.empty() && word.find_first_not_of("0123456789") == std::string_view::npos;
 }
@@ -78,7 +78,7 @@ void read_bone(MocapWords& words, const BonePlaces& places, double rad, std::vec
                                       " degrees of freedom of " + quoted_word(name));
 }
 
-// Before memory is taken for one frame more.
+// Checks the size before memory is taken for one more frame.
 void check_size(MocapWords& words, const AmcMotion& motion, std::int64_t turned_and_moved) {
   const std::int64_t frames = std::int64_t{motion.frame_count} + 1;
   if (frames * motion.dof_count > kMaxMocapNumbers)
@@ -102,7 +102,7 @@ void read_frame(MocapWords& words, const BonePlaces& places, double rad, AmcMoti
   ++motion.frame_count;
 }
 
-// ":DEGREES" and the like, before the first frame. Returns what angles are multiplied with.
+// Reads ":DEGREES" and other words before the first frame. Returns the factor for angles.
 double read_header(MocapWords& words, const AsfSkeleton& skeleton) {
   bool in_degrees = skeleton.is_in_degrees;
   while (words.peek().starts_with(':')) {
@@ -116,7 +116,7 @@ double read_header(MocapWords& words, const AsfSkeleton& skeleton) {
 
 // ---- as an asset
 
-// R of a bone, from its numbers.
+// R of a bone, from its numbers in a frame.
 Quat turn_of(const AsfBone& bone, std::span<const double> values) {
   Quat q = kNoRotation;
   for (const int axis : bone.turn_order) {
@@ -155,7 +155,7 @@ std::vector<AssetNode> to_nodes(const AsfSkeleton& skeleton) {
 
 void add_bone_channels(const AsfBone& bone, int node, const Vec3& rest, std::size_t first_dof, const AmcMotion& motion,
                        const std::vector<double>& times_s, AssetClip& clip) {
-  if (bone.dofs.empty()) return;  // thousands of bones that stay, in millions of frames
+  if (bone.dofs.empty()) return;  // saves time for thousands of fixed bones in millions of frames
   AssetChannel rotations{node, ChannelPath::rotation, Interpolation::linear, times_s, {}};
   AssetChannel shifts{node, ChannelPath::translation, Interpolation::linear, times_s, {}};
   for (int frame = 0; frame < motion.frame_count; ++frame) {

@@ -14,11 +14,11 @@ namespace {
 constexpr MocapSyntax kAsfSyntax{.area = "asf", .alone = "", .blank = "()", .comment = '#'};
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-// Limits and axes are multiplied with this factor. The unit is declared before the bones in every file, but nothing
-// says that it must be: so it is applied at the end.
+// The factor for limits and axes. All known files declare the unit before the bones, but nothing requires this, so the
+// factor is applied at the end.
 double to_rad(const AsfSkeleton& skeleton) { return skeleton.is_in_degrees ? kRadPerDeg : 1.0; }
 
-// A bone as written: angles in the file's unit.
+// A bone as written in the file, with angles in the file's unit.
 struct RawBone {
   AsfBone bone;
   Vec3 axis_angles{0.0};
@@ -26,7 +26,7 @@ struct RawBone {
 
 struct AsfText {
   AsfSkeleton skeleton;
-  std::vector<RawBone> bones = {RawBone{}};  // the root, and what bonedata adds
+  std::vector<RawBone> bones = {RawBone{}};  // the root, and the bones that bonedata adds
   std::map<std::string, int, std::less<>> index = {{"root", 0}};
 };
 
@@ -64,7 +64,7 @@ void read_dofs(MocapWords& words, AsfBone& bone) {
   }
 }
 
-// "XYZ": the order in which rotations are applied.
+// Reads the order in which rotations are applied: "XYZ".
 void read_turn_order(MocapWords& words, AsfBone& bone) {
   const std::string_view word = words.next();
   std::array<bool, 3> known{};
@@ -86,7 +86,7 @@ double read_limit(MocapWords& words) {
   return words.number(kMaxMocapAngle_deg);
 }
 
-// One pair for each degree of freedom, often over several lines.
+// Reads one pair for each degree of freedom, often over several lines.
 void read_limits(MocapWords& words, AsfBone& bone) {
   if (bone.dofs.empty()) words.fail("wrong_count", "found limits before any degree of freedom");
   for (AsfDof& dof : bone.dofs) {
@@ -133,7 +133,7 @@ void read_bone_line(MocapWords& words, RawBone& out) {
   } else if (is_same_word(what, "limits")) {
     read_limits(words, bone);
   } else {
-    words.skip_line();  // id, mass and what other programs add
+    words.skip_line();  // id, mass and additions of other programs
   }
 }
 
@@ -160,7 +160,8 @@ int find_bone(MocapWords& words, const AsfText& text, std::string_view name) {
   return 0;
 }
 
-// Lines of a bone and its children. Who comes first is the parent of all others, and nobody has two.
+// Reads lines of a bone and its children. The first bone of a line is the parent of all others, and no bone has two
+// parents.
 void read_tree(MocapWords& words, AsfText& out) {
   words.expect("begin");
   while (words.has_more() && !is_same_word(words.peek(), "end")) {
@@ -198,7 +199,8 @@ void read_section(MocapWords& words, AsfText& out) {
   }
 }
 
-// Parents before children, without recursion; a bone that the root does not reach is in a ring or in no tree at all.
+// Orders the bones: parents before children, without recursion. Bones that the root does not reach form a ring, or are
+// in no tree.
 Result<Done> order_bones(AsfSkeleton& skeleton) {
   std::vector<std::vector<int>> children(skeleton.bones.size());
   for (std::size_t i = 1; i < skeleton.bones.size(); ++i)

@@ -23,14 +23,14 @@ constexpr MocapSyntax kBvhSyntax{.area = "bvh", .alone = "{}", .blank = ""};
 constexpr std::array<std::string_view, 6> kChannelNames = {"Xposition", "Yposition", "Zposition",
                                                            "Xrotation", "Yrotation", "Zrotation"};
 
-// One number of each frame: what of which node.
+// One number of each frame: its node, and the property of the node.
 struct BvhChannel {
   int node = 0;
   int axis = 0;  // 0 x, 1 y, 2 z
   bool is_rotation = false;
 };
 
-// A node whose closing brace has not come yet.
+// A node whose closing brace has not been read yet.
 struct OpenNode {
   int node = 0;
   bool is_end_site = false;
@@ -85,7 +85,7 @@ void close_node(MocapWords& words, std::vector<OpenNode>& open) {
   open.pop_back();
 }
 
-// One statement inside of a joint or an end site.
+// Reads one statement inside a joint or an end site.
 void read_statement(MocapWords& words, std::vector<OpenNode>& open, Hierarchy& out) {
   const std::string_view word = words.next();
   const bool in_joint = !open.back().is_end_site;
@@ -118,7 +118,7 @@ Hierarchy read_hierarchy(MocapWords& words) {
 
 // ---- motion
 
-// A channel's numbers go to a node's rotation and translation in the clip; -1 where it has none.
+// The rotation and translation channels in the clip that receive a node's numbers; -1 for none.
 struct NodeTargets {
   int rotation = -1;
   int translation = -1;
@@ -138,8 +138,8 @@ std::vector<NodeTargets> make_channels(const Hierarchy& hierarchy, std::size_t f
   return targets;
 }
 
-// One key for every target of a node, from its numbers in a frame. Positions are kept as the file has them; OFFSET
-// stands in for the axes without a channel.
+// Adds one key for every target of a node, from its numbers in a frame. Positions are kept as in the file; axes without
+// a channel get OFFSET.
 void add_keys(const AssetNode& node, const NodeTargets& targets, std::span<const BvhChannel> channels,
               std::span<const double> numbers, AssetClip& clip) {
   constexpr std::array<Vec3, 3> kAxes = {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
@@ -161,12 +161,13 @@ void add_keys(const AssetNode& node, const NodeTargets& targets, std::span<const
   append(targets.translation, {p.x, p.y, p.z});
 }
 
-// Reads a line's numbers and returns how many it has. Only the last line of a text may have too few: anywhere else
-// they would shift all that follow.
+// Reads the numbers of a line and returns how many it has. Only the last line of a text may have too few; on any other
+// line a missing number would shift all that follow.
 std::size_t read_frame(MocapWords& words, const std::vector<BvhChannel>& channels, std::vector<double>& numbers) {
   std::size_t count = 0;
   for (; count < channels.size() && words.ok() && (count == 0 || !words.line_ends()); ++count) {
-    if (count + 1 < channels.size() && words.breaks_off()) return words.next(), count;  // perhaps within a number
+    // The text may end inside a number.
+    if (count + 1 < channels.size() && words.breaks_off()) return words.next(), count;
     numbers[count] = words.number(channels[count].is_rotation ? kMaxMocapAngle_deg : kMaxMocapLength);
   }
   if (words.ok() && count == channels.size() && !words.line_ends())
@@ -178,14 +179,14 @@ std::size_t read_frame(MocapWords& words, const std::vector<BvhChannel>& channel
   return count;
 }
 
-// Rotations and translations that have channels.
+// The number of rotations and translations that have channels.
 std::int64_t count_targets(const Hierarchy& hierarchy) {
   std::set<std::pair<int, bool>> targets;
   for (const BvhChannel& channel : hierarchy.channels) targets.emplace(channel.node, channel.is_rotation);
   return static_cast<std::int64_t>(targets.size());
 }
 
-// As many frames as the limits of numbers and of keys allow.
+// The number of frames that the limits of numbers and of keys allow.
 std::int64_t most_frames(const Hierarchy& hierarchy) {
   if (hierarchy.channels.empty()) return 0;
   return std::min(kMaxMocapNumbers / static_cast<std::int64_t>(hierarchy.channels.size()),
@@ -198,9 +199,10 @@ void fail_if_above(std::int64_t most, std::int64_t frames, MocapWords& words) {
                                 " with the channels of this skeleton");
 }
 
-// Reads the lines that there are, and returns how many frames they make.
+// Reads all lines and returns the number of frames.
 int read_frames(MocapWords& words, const Hierarchy& hierarchy, int said, AssetClip& clip, Remarks& remarks) {
-  const std::size_t lines = std::min(static_cast<std::size_t>(said), words.lines_left());  // no memory for mere claims
+  // Takes no memory for frames that are only announced.
+  const std::size_t lines = std::min(static_cast<std::size_t>(said), words.lines_left());
   const std::vector<NodeTargets> targets = make_channels(hierarchy, lines, clip);
   const std::vector<BvhChannel>& channels = hierarchy.channels;
   std::vector<double> numbers(channels.size());
@@ -232,9 +234,9 @@ int read_frame_count(MocapWords& words, const Hierarchy& hierarchy) {
   return words.ok() ? frames : 0;
 }
 
-// Seconds for a frame: as the file says, unless somebody else says it.
+// The time of a frame in seconds: by `rate_hz` if it is given, otherwise as in the file.
 double read_frame_time(MocapWords& words, double rate_hz, Remarks& remarks) {
-  constexpr double kShort_s = 0.001, kLong_s = 0.2;  // no camera or suit is faster than 1000 Hz or slower than 5
+  constexpr double kShort_s = 0.001, kLong_s = 0.2;  // cameras and suits record between 5 and 1000 Hz
   words.expect("Frame");
   words.expect_label("Time:");
   if (rate_hz > 0.0) {
@@ -261,7 +263,7 @@ void time_frames(int frames, double frame_time_s, AssetClip& clip) {
   for (AssetChannel& channel : clip.channels) channel.times_s = times_s;
 }
 
-// Said from outside of the text.
+// Data that do not come from the text.
 struct BvhContext {
   const std::string& clip_name;
   double rate_hz;
@@ -284,7 +286,7 @@ AssetClip read_motion(MocapWords& words, const Hierarchy& hierarchy, const BvhCo
   return clip;
 }
 
-// The axes along which the channels of each node move it.
+// The axes along which each node has a position channel.
 std::vector<PositionAxes> has_axis(const Hierarchy& hierarchy) {
   std::vector<PositionAxes> axes(hierarchy.nodes.size());
   for (const BvhChannel& channel : hierarchy.channels)
@@ -311,7 +313,8 @@ Result<Asset> parse_bvh(std::string_view text, const std::string& clip_name, dou
   for (std::size_t i = 0; i < labels.size(); ++i) hierarchy.nodes[i].label = labels[i];
   asset.nodes = std::move(hierarchy.nodes);
   asset.order.resize(labels.size());
-  std::iota(asset.order.begin(), asset.order.end(), 0);  // a file nests children in their parents
+  // A file nests children inside their parents, so the order is the file's.
+  std::iota(asset.order.begin(), asset.order.end(), 0);
   if (!clip.channels.empty()) asset.clips.push_back(std::move(clip));
   return asset;
 }

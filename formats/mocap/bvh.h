@@ -20,8 +20,8 @@
 
 namespace contort {
 
-// The clip is named like the file, without its folder and ending. Codes "bvh.*"; the pointer is a line: "line 12".
-// A rate above 0 is that of the frames, whatever "Frame Time:" says.
+// The clip has the file's name, without folder and ending. Codes "bvh.*"; the pointer is a line: "line 12". If
+// `rate_hz` is above 0, it replaces "Frame Time:".
 Result<Asset> read_bvh(const std::string& path, double rate_hz = 0.0);
 
 Result<Asset> parse_bvh(std::string_view text, const std::string& clip_name, double rate_hz = 0.0);

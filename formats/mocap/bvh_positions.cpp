@@ -7,7 +7,7 @@ namespace contort {
 
 namespace {
 
-// Distances of positions from OFFSET and from 0; what is smaller tells what the positions are.
+// Distances of positions from OFFSET and from 0. The smaller one decides how the positions are meant.
 struct Distances {
   double from_offset = 0.0;
   double from_zero = 0.0;
@@ -22,7 +22,7 @@ const AssetNode& node_of(const std::vector<AssetNode>& nodes, const AssetChannel
   return nodes[static_cast<std::size_t>(channel.node)];
 }
 
-// The offset, along the axes that have a channel.
+// The offset along the axes that have a channel.
 Vec3 offset_of(const AssetNode& node, const PositionAxes& axes) {
   Vec3 out(0.0);
   for (int i = 0; i < 3; ++i)
@@ -39,7 +39,7 @@ void add_distances(const AssetChannel& channel, const Vec3& offset, const Positi
     }
 }
 
-// Along one axis: how far it travels for the length of its OFFSET, and the distances there.
+// How far a root travels along one axis, relative to the length of its OFFSET, and its distances there.
 struct AxisOfRoot {
   double travel = 0.0;
   Distances distances;
@@ -76,14 +76,14 @@ void add_offset(const Vec3& offset, AssetChannel& channel) {
   for (std::size_t i = 0; i < channel.values.size(); ++i) channel.values[i] += offset[static_cast<int>(i % 3)];
 }
 
-// Bones without length in the hierarchy, whose lengths stand in the frames.
+// Returns true for bones without length in the hierarchy, whose lengths are in the frames.
 bool are_offsets_in_frames(const std::vector<AssetNode>& nodes, const std::vector<const AssetChannel*>& inner) {
   const auto has_no_offset = [&](const AssetChannel* c) { return node_of(nodes, *c).rest.translation == Vec3(0.0); };
   const auto is_elsewhere = [](const AssetChannel* c) { return position_at(*c, 0) != Vec3(0.0); };
   return std::ranges::all_of(inner, has_no_offset) && std::ranges::count_if(inner, is_elsewhere) >= 2;
 }
 
-// Adds OFFSET where positions do not replace it.
+// Adds OFFSET if positions do not replace it.
 void place_channels(const std::vector<AssetNode>& nodes, const std::vector<PositionAxes>& axes, bool below_replaces,
                     AssetClip& clip, std::vector<Remark>& remarks) {
   int replaced = 0, added = 0;

@@ -1,10 +1,10 @@
-// Decides where the positions of a BVH are: tools do not agree. Blender, MotionBuilder and LAFAN1 write places in the
-// joint above, which replace OFFSET; others write movements, which are added to it.
+// Decides how the positions of a BVH are meant, because tools disagree. Blender, MotionBuilder and LAFAN1 write places
+// in the parent joint, which replace OFFSET; other tools write movements, which are added to it.
 //
-// The file tells by its numbers. Joints below a root hardly leave their places, so that their positions are near OFFSET
-// where they replace it, and near 0 where they are added: the smaller sum of distances over all joints and frames
-// decides. A root travels. If the joints below it replace OFFSET, or if its first frame is its OFFSET, it replaces it,
-// too; else the axis decides along which it travels least for the length of its OFFSET, mostly the height.
+// The numbers decide. Joints below a root hardly leave their places, so their positions are near OFFSET if they replace
+// it, and near 0 if they are added: the smaller sum of distances over all joints and frames wins. A root travels. Its
+// positions replace OFFSET if those of the joints below it do, or if its first frame equals its OFFSET. Otherwise the
+// axis decides along which it travels least for the length of its OFFSET, mostly the height.
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@
 
 namespace contort {
 
-using PositionAxes = std::array<bool, 3>;  // those that have a channel
+using PositionAxes = std::array<bool, 3>;  // true for axes with a channel
 
-// Turns positions as the file has them, in the clip's translations, into places in the joint above. Axes without a
-// channel have OFFSET there already. Where all joints below a root have OFFSET 0 and two or more have positions, the
-// first frame becomes the rest pose. Remarks say how it was decided, where that makes a difference.
+// Converts positions in the clip's translations from the file's convention to places in the parent joint. Axes without
+// a channel already have OFFSET. If all joints below a root have OFFSET 0 and two or more of them have positions, the
+// first frame becomes the rest pose. Remarks describe the decision where it matters.
 void place_joints(std::vector<AssetNode>& nodes, const std::vector<PositionAxes>& axes, AssetClip& clip,
                   std::vector<Remark>& remarks);
 

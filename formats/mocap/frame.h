@@ -1,12 +1,11 @@
-// Brings an asset into the frame of the rest of the program: metres, +Y up. A file of motion capture does not tell its
-// own.
+// Converts an asset to metres and +Y up. A file of motion capture does not declare its own unit and axes.
 #pragma once
 
 #include "model/asset/asset.h"
 
 namespace contort {
 
-// Lengths of rest poses and of clips, from a unit of so many metres to metres.
+// Scales the lengths of rest poses and clips from a unit of `unit_m` metres to metres.
 void scale_lengths(double unit_m, Asset& asset);
 
 // Turns all roots, at rest and in clips, so that +Z becomes +Y.

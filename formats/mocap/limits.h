@@ -12,7 +12,7 @@ inline constexpr int kMaxMocapNodes = 16'384;
 inline constexpr int kMaxMocapDepth = 1024;  // Joints within joints. Nothing recurses; it only keeps poses affordable.
 inline constexpr std::size_t kMaxMocapNameBytes = 1024;
 inline constexpr std::int64_t kMaxMocapNumbers = std::int64_t{96} << 20;  // Frames times channels.
-// The limit for frames times turned or moved joints. A key takes 40 bytes, however few numbers it is made from.
+// The limit for frames times joints that turn or move. A key takes 40 bytes, whatever the number of its channels.
 inline constexpr std::int64_t kMaxMocapKeys = std::int64_t{32} << 20;
 // The limit for angles, in degrees. A joint that turns 10 000 times is a fault of the file, and sines of large angles
 // lose their digits.

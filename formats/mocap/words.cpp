@@ -96,7 +96,7 @@ double MocapWords::number(double magnitude) {
   std::string_view word = next();
   if (!ok()) return 0.0;
   const std::string_view shown = word;
-  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);  // from_chars takes no plus sign
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);  // from_chars accepts no plus sign
   double value = 0.0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error == std::errc::invalid_argument || end != word.data() + word.size())
@@ -160,7 +160,7 @@ std::string quoted_word(std::string_view word) { return json_fields::quoted(std:
 Result<std::string> read_mocap_text(const std::string& path, const std::string& area) {
   const Result<std::string> text = read_file(path, kMaxMocapBytes);
   if (text) {
-    const std::string_view mark = area == "bvh" ? "HIERARCHY" : "#!OML:ASF";  // of the kind that is wanted
+    const std::string_view mark = area == "bvh" ? "HIERARCHY" : "#!OML:ASF";  // first word of the expected kind
     const std::string expected = "an animation file of the kind " + area;
     const std::optional<Issue> other = text->starts_with(mark) ? std::nullopt : other_kind(path, *text, expected);
     return other ? Issue{area + ".wrong_kind", "", other->text} : text;

@@ -1,7 +1,7 @@
-// Reads the words, numbers and lines of the text formats of motion capture. It does not depend on the locale, and
-// never reads beyond the text.
+// Reads the words, numbers and lines of the text formats of motion capture. It does not depend on the locale, and never
+// reads beyond the text.
 //
-// The first fault stays: after it there are no more words, so that loops end and callers call ok() once.
+// After the first fault there are no more words, so that loops end and callers call ok() once.
 #pragma once
 
 #include <string>
@@ -16,29 +16,29 @@ struct MocapSyntax {
   std::string_view area;   // The prefix of issue codes: "bvh".
   std::string_view alone;  // Characters that are words of their own: "{}".
   std::string_view blank;  // Skipped like white space: "()".
-  char comment = '\0';     // From here to the end of the line nothing counts; '\0': no comments.
+  char comment = '\0';     // begins a comment up to the end of the line; '\0': no comments
 };
 
 class MocapWords {
  public:
-  // A byte order mark at the beginning is skipped.
+  // Skips a byte order mark at the beginning.
   MocapWords(const MocapSyntax& syntax, std::string_view text);
 
-  std::string_view peek();          // The next word without taking it; "" at the end of the text, and after a fault.
-  std::string_view next();          // Takes it.
-  bool line_ends();                 // No more words in the line where we stand.
+  std::string_view peek();  // Returns the next word without taking it; "" at the end of the text and after a fault.
+  std::string_view next();          // Returns the next word and takes it.
+  bool line_ends();                 // Returns true if the present line has no more words.
   std::string_view rest_of_line();  // Trimmed; a character that stands alone at its end is left for next().
   void skip_line();
 
-  // The next word, which must be what is asked for; else a fault, and 0.
-  double number(double magnitude);                      // Finite, at most so large either way.
+  // The next word, which must match the request; otherwise there is a fault, and the result is 0.
+  double number(double magnitude);                      // Finite, with at most this absolute value.
   int count(std::string_view what, std::int64_t high);  // In [0, high].
   Vec3 vector(double magnitude);
-  void expect(std::string_view word);  // Upper or lower case.
+  void expect(std::string_view word);  // Ignores the case of letters.
   void expect_label(std::string_view label);  // The same; a value may follow without a blank: "Frames:20".
 
   bool ok() const { return issue_.code.empty(); }
-  void fail(std::string_view code, std::string text);  // At the line of the last word that was taken.
+  void fail(std::string_view code, std::string text);  // Reports a fault at the line of the last word that was taken.
   const Issue& issue() const { return issue_; }
 
   // Returns true if the text ends with the next word, without the end of a line.
@@ -47,7 +47,7 @@ class MocapWords {
   // Returns true if there was no fault and the next word is not the end of the text; for loops.
   bool has_more() { return !peek().empty(); }
   std::size_t bytes_left() const { return text_.size() - at_; }
-  std::size_t lines_left() const;  // At most so many more lines.
+  std::size_t lines_left() const;  // An upper bound.
 
  private:
   bool is_blank(char c) const;
@@ -56,8 +56,8 @@ class MocapWords {
   MocapSyntax syntax_;
   std::string_view text_;
   std::size_t at_ = 0;
-  int line_ = 1;       // The line of at_.
-  int word_line_ = 1;  // The line of the last word that was taken.
+  int line_ = 1;       // Line of at_.
+  int word_line_ = 1;  // Line of the last word that was taken.
   Issue issue_;
 };
 

@@ -58,7 +58,7 @@ Result<std::vector<Vec3>> points_of_binary(std::string_view bytes, std::size_t t
   return out;
 }
 
-// Lines such as "vertex 1 2 3" in an STL, and "v 1 2 3" in an OBJ.
+// Reads lines such as "vertex 1 2 3" in an STL, and "v 1 2 3" in an OBJ.
 Result<std::vector<Vec3>> points_of_lines(std::string_view text, std::string_view word) {
   std::vector<Vec3> out;
   while (!text.empty()) {
@@ -81,7 +81,7 @@ bool is_plain_file(const fs::path& path) {
   return fs::is_regular_file(path, error);
 }
 
-// BASE/REST, if it is a file that does not lead out of BASE.
+// Returns BASE/REST if it is a file inside of BASE.
 std::string inside(const fs::path& base, const fs::path& rest) {
   for (const fs::path& step : rest)
     if (step == "..") return "";
@@ -89,8 +89,8 @@ std::string inside(const fs::path& base, const fs::path& rest) {
   return is_plain_file(path) && check_inside(base.string(), path.string()).ok() ? path.string() : "";
 }
 
-// The package is a folder of that name around the robot's file, or beside a folder around it; else a folder around it
-// that has the file, as a copy of a package often has another name.
+// Finds the package. It is a folder of that name around the robot's file, or beside such a folder. Otherwise it is a
+// folder around the robot's file that has the mesh, because a copy of a package often has another name.
 std::string find_in_package(const fs::path& folder, const std::string& rest) {
   const std::size_t slash = rest.find('/');
   if (slash == std::string::npos || slash == 0) return "";
@@ -108,7 +108,7 @@ std::string find_in_package(const fs::path& folder, const std::string& rest) {
 }
 
 struct MeshCache {
-  std::map<std::string, std::vector<Vec3>> points;  // by path; none for files that cannot be read
+  std::map<std::string, std::vector<Vec3>> points;  // by path; empty for unreadable files
   std::size_t bytes = 0;
 };
 

@@ -15,7 +15,7 @@ namespace contort {
 Result<std::vector<Vec3>> mesh_points(std::string_view bytes, std::string_view ending);
 
 // Returns the path of a mesh that a robot's file names, "package://arm/meshes/a.stl" or "../meshes/a.stl"; "" if it is
-// not found. It lies in the folder of the package, or below the folder that the name itself leads up to.
+// not found. It must lie in the folder of the package, or below the folder to which the ".." of the name lead.
 std::string find_mesh(const std::string& robot_file, const std::string& name);
 
 // Replaces each mesh whose file is found by its hull. The others stay, with a note.

@@ -173,7 +173,7 @@ class MjcfReader {
     }
   }
 
-  // An actuator's force times its gear is the effort at its joint.
+  // The effort of a joint is its actuator's force times its gear.
   void read_actuators(const XmlElement& root) {
     std::map<std::string, RobotJoint*> joints;
     for (RobotBody& body : all_.bodies)
@@ -206,7 +206,7 @@ class MjcfReader {
       }
   }
 
-  // A joint that an equality couples to another follows it, as in URDF's mimic, if the polynomial is a line.
+  // A joint that an equality couples to another one follows it, as in URDF's mimic, if the polynomial is linear.
   void read_couplings(const XmlElement& root) {
     std::map<std::string, RobotJoint*> joints;
     for (RobotBody& body : all_.bodies)
@@ -235,7 +235,7 @@ class MjcfReader {
     return body;
   }
 
-  // The body of the world that carries most joints; objects of the scene carry few.
+  // The body of the world with most joints below it; objects of the scene have few.
   int main_tree() {
     std::map<int, int> joints;
     for (int i = 1; i < static_cast<int>(all_.bodies.size()); ++i)
@@ -248,7 +248,7 @@ class MjcfReader {
     return best;
   }
 
-  // Some joints of planar robots stand for the place of the root: a travel without limits is one of them.
+  // Returns true if the joints place the root, as in planar robots: one of them is a travel without limits.
   bool places_root(const RobotBody& top) const {
     return std::any_of(top.joints.begin(), top.joints.end(), [](const RobotJoint& joint) {
       return joint.kind == RobotJointKind::travel && joint.low == -kNoLimit && joint.high == kNoLimit;
@@ -279,7 +279,7 @@ class MjcfReader {
 
   MjcfText text_;
   MjcfMeshes meshes_;
-  RobotModel all_;  // with the world as the first body
+  RobotModel all_;  // the world is the first body
   std::set<std::string> names_;
   std::set<std::string> joint_names_;
   std::set<int> free_;

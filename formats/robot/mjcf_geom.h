@@ -18,9 +18,9 @@ using MjcfMeshes = std::map<std::string, MjcfMesh>;
 MjcfMeshes read_meshes(MjcfText& text, const XmlElement& root);
 
 struct MjcfGeom {
-  std::optional<RobotShape> shape;  // nothing for planes and height fields, and for what is only drawn
+  std::optional<RobotShape> shape;  // empty for planes, height fields and shapes that are only drawn
   BodyInertia inertia;              // in the body's frame
-  bool has_unknown_mass = false;    // a mesh whose volume is not known
+  bool has_unknown_mass = false;    // true for a mesh of unknown volume
   std::string left_out;             // the type of a shape that cannot be a collider
 };
 

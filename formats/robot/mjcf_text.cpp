@@ -12,7 +12,7 @@ namespace {
 constexpr int kMaxIncludeDepth = 4;
 constexpr std::size_t kMaxClasses = 1000;
 
-// Replaces each <include file="..."/> by what the file's outermost element has.
+// Replaces each <include file="..."/> by the children of that file's outermost element.
 class Includer {
  public:
   explicit Includer(const ReadIncluded& read) : read_(read) {}
@@ -133,7 +133,7 @@ MjcfAttributes MjcfText::attributes(const XmlElement& element, const std::string
   }
   const std::string tag = tag_of(element);
   if (const auto values = found->second.find(is_actuator(tag) ? "actuator" : tag); values != found->second.end())
-    own.insert(values->second.begin(), values->second.end());  // keeps the element's own
+    own.insert(values->second.begin(), values->second.end());  // keeps the element's own values
   return own;
 }
 

@@ -1,4 +1,4 @@
-// The general rules of MJCF: included files, default classes, the compiler's settings, and how a pose is written.
+// The general rules of MJCF: included files, default classes, the compiler's settings, and the forms of a pose.
 #pragma once
 
 #include <array>
@@ -30,15 +30,15 @@ struct MjcfSettings {
 // Reads attributes with the defaults of classes, and numbers with faults.
 class MjcfText {
  public:
-  // Puts the included files in their places. Codes mjcf.bad_include and those of XmlText::parse.
+  // Replaces <include> by the included files. Codes mjcf.bad_include and those of XmlText::parse.
   static Result<XmlText> with_includes(std::string_view text, const ReadIncluded& read_included);
 
   void read_settings(const XmlElement& root);
   void read_classes(const XmlElement& root);
   const MjcfSettings& settings() const { return settings_; }
 
-  // Returns the element's attributes over those of its class, which is its own or `childclass`. All kinds of actuators
-  // share their defaults.
+  // Returns the element's attributes, completed from its class, which is its own or `childclass`. All kinds of
+  // actuators share their defaults.
   MjcfAttributes attributes(const XmlElement& element, const std::string& childclass);
 
   // The number of values must be between `least` and `most`; nothing if the attribute is missing or at fault.

@@ -54,7 +54,7 @@ std::string seen_from(const std::string& robot_file, const std::string& path) {
   return normal.lexically_relative(folder.empty() ? "." : folder.lexically_normal()).string();
 }
 
-// The note comes first, as it decides what self_collision judges.
+// This note comes first, because it affects what self_collision judges.
 Result<Done> add_srdf_file(const std::string& robot_file, const std::string& srdf_file, RobotModel& robot) {
   const Result<std::string> text = read_xml(srdf_file);
   if (!text) return about_file(srdf_file, text.issue());
@@ -98,7 +98,7 @@ bool is_robot_text(std::string_view text) {
 }
 
 bool is_robot_file(const std::string& path) {
-  constexpr std::size_t kBeginning = 65536;  // of a file that may begin with a long licence
+  constexpr std::size_t kBeginning = 65536;  // bytes: a file may begin with a long licence
   const std::string ending = std::filesystem::path(path).extension().string();
   for (const char* robot : {".urdf", ".xacro", ".srdf", ".mjcf", ".xml"})
     if (ending == robot) return true;

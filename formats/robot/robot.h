@@ -28,11 +28,11 @@ struct RobotJoint {
   RobotJointKind kind = RobotJointKind::hinge;
   Vec3 anchor_m{0.0};        // in the body's frame
   Vec3 axis{0.0, 0.0, 1.0};  // unit, in the body's frame
-  double low = -kNoLimit;    // rad or m; a ball has only a high one, the greatest angle from rest
+  double low = -kNoLimit;    // rad or m; a ball has only an upper one, the greatest angle from rest
   double high = kNoLimit;
-  double at_rest = 0.0;          // the joint's value in the pose that the file draws
-  double greatest_speed = 0.0;   // rad/s or m/s; 0: the file does not say
-  double greatest_effort = 0.0;  // N m or N; 0: the file does not say
+  double at_rest = 0.0;          // the joint's value in the file's pose
+  double greatest_speed = 0.0;   // rad/s or m/s; 0: unknown
+  double greatest_effort = 0.0;  // N m or N; 0: unknown
   std::string follows{};         // URDF's mimic: the joint that this one follows; "" for none
   double multiplier = 1.0;
   double offset = 0.0;
@@ -40,8 +40,8 @@ struct RobotJoint {
 };
 
 struct RobotShape {
-  ColliderShape shape{};  // in the body's frame; of a mesh once its file was read
-  std::string mesh{};     // the mesh's file, as the robot's file names it; "" once it was read
+  ColliderShape shape{};  // in the body's frame; for a mesh, set after its file was read
+  std::string mesh{};     // the mesh's file, as the robot's file names it; "" after it was read
   Rigid body_from_mesh{};
   Vec3 mesh_scale{1.0};
   unsigned groups = 1;    // MJCF's contype: two shapes touch if the groups of one meet the partners of the other
@@ -52,8 +52,8 @@ struct RobotShape {
 struct RobotBody {
   std::string name{};
   int parent = -1;                   // an earlier body; -1 for the first one, which is the root
-  Rigid parent_from_body{};          // in the pose that the file draws; of the root: in the world
-  std::vector<RobotJoint> joints{};  // in their order; none: fixed to its parent
+  Rigid parent_from_body{};          // in the file's pose; for the root: in the world
+  std::vector<RobotJoint> joints{};  // in their order; empty: the body is fixed to its parent
   BodyInertia inertia{};             // axes of the body's frame
   std::vector<RobotShape> shapes{};
   bool operator==(const RobotBody&) const = default;
@@ -69,11 +69,11 @@ struct RobotPair {
 struct RobotModel {
   std::string name;
   std::vector<RobotBody> bodies;  // parents first
-  bool has_free_root = false;     // the file lets the root move; else it is bolted to the ground
+  bool has_free_root = false;     // the file lets the root move; otherwise it is bolted to the ground
   std::vector<RobotPair> may_touch;
-  std::string srdf{};              // path of the SRDF that was read, too; "" for none
-  std::vector<std::string> notes;  // what a character cannot express, and what was guessed
-  bool is_skeleton = false;        // it is a skeleton of motion capture, and no robot
+  std::string srdf{};              // path of the SRDF that was read; "" for none
+  std::vector<std::string> notes;  // features that a character cannot express, and guesses
+  bool is_skeleton = false;        // it is a skeleton of motion capture, not a robot
   bool operator==(const RobotModel&) const = default;
 };
 

@@ -7,7 +7,7 @@
 
 namespace contort {
 
-// Solids along the +Z axis of a frame, with their middle in its origin.
+// Solids along the +Z axis of a frame, centred at its origin.
 ColliderShape placed_box(const Rigid& at, const Vec3& half_m);
 ColliderShape placed_capsule(const Rigid& at, double radius_m, double half_length_m);   // half: of the straight part
 ColliderShape placed_cylinder(const Rigid& at, double radius_m, double half_length_m);  // a prism of 16 sides

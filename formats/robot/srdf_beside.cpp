@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMostSrdfs = 256;
 constexpr const char* kFoldersOfPackage[] = {"srdf", "config"};
 
-// The paths in the folder whose names end so, in the order of their names; none if the folder cannot be read.
+// The paths in the folder with this ending, in the order of their names; none if the folder cannot be read.
 std::vector<fs::path> entries_ending(const fs::path& folder, const std::string& ending) {
   std::vector<fs::path> out;
   std::error_code error;
@@ -33,7 +33,7 @@ std::vector<fs::path> places_of_package(const fs::path& folder) {
   return out;
 }
 
-// The folders of the URDF's own package: the file mostly lies in its folder `urdf` or `robots`, or in the package.
+// The folders of the URDF's own package. The file mostly lies in the package's folder, or in `urdf` or `robots` in it.
 std::vector<fs::path> own_places(const fs::path& folder) {
   std::vector<fs::path> out = {folder};
   for (const fs::path& package : {folder, folder / ".."})
@@ -61,7 +61,7 @@ class SrdfSearch {
   SrdfsBeside found() && { return std::move(out_); }
 
  private:
-  // A folder can be reached by two ways, and installations link files to their sources.
+  // Returns false for a known file: a folder may be reached in two ways, and installations link files to their sources.
   bool is_new(const fs::path& file) {
     std::error_code error;
     const fs::path itself = fs::canonical(file, error);

@@ -8,17 +8,17 @@
 
 namespace contort {
 
-// An SRDF that cannot be read, and why.
+// An SRDF that cannot be read, with the reason.
 struct UnreadableSrdf {
   std::string file;
   Issue issue;
   bool operator==(const UnreadableSrdf&) const = default;
 };
 
-// The files that were found. Files with equal texts count once.
+// The found files. Files with equal text count once.
 struct SrdfsBeside {
-  std::vector<std::string> fitting;         // their robot has the URDF's name
-  std::vector<std::string> of_others;       // of the URDF's own package: their robot has another name
+  std::vector<std::string> fitting;         // files about a robot with the URDF's name
+  std::vector<std::string> of_others;       // files of the URDF's own package about a robot with another name
   std::vector<UnreadableSrdf> unreadable{}; // of the URDF's own package
   bool operator==(const SrdfsBeside&) const = default;
 };

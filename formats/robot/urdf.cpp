@@ -15,7 +15,7 @@ namespace contort {
 
 namespace {
 
-// A joint as its element has it, with the index of the link that it moves.
+// A joint as written in its element, with the index of the link that it moves.
 struct UrdfJoint {
   std::string name;
   std::string type;
@@ -232,7 +232,7 @@ class UrdfReader {
           "links " + quoted_name(roots[0]) + " and " + quoted_name(roots[1]) + " have no parent; a robot has one root");
   }
 
-  // Parents first, without recursion. Links that the root does not reach form a ring.
+  // Orders links, parents first, without recursion. Links that the root does not reach form a ring.
   Result<RobotModel> ordered() {
     std::vector<std::vector<std::size_t>> below(robot_.bodies.size());
     for (std::size_t j = 0; j < joints_.size(); ++j) below[at(joints_[j].parent)].push_back(j);
@@ -278,7 +278,7 @@ class UrdfReader {
     return body;
   }
 
-  // A floating or planar joint within the tree: travels, and a ball or a hinge.
+  // Adds a floating or planar joint inside the tree: travels, and a ball or a hinge.
   static void add_free_joints(const UrdfJoint& joint, RobotBody& body) {
     const Vec3 normal = joint.motion.axis, first = perpendicular(normal);
     const bool is_planar = joint.type == "planar";
@@ -304,7 +304,7 @@ class UrdfReader {
   int root_ = 0;
 };
 
-// xacro is a macro language of which URDF is the result: its own elements, and values such as "${width / 2}".
+// xacro is a macro language that produces URDF. It has its own elements, and values such as "${width / 2}".
 bool is_xacro(const XmlElement& root) {
   std::vector<const XmlElement*> open = {&root};
   while (!open.empty()) {

@@ -19,7 +19,7 @@ Result<RobotModel> parse_urdf(std::string_view text);
 // .unknown_link, .no_name.
 Result<Done> add_srdf(std::string_view text, RobotModel& robot);
 
-// Returns the name of the robot that an SRDF's text is about; "" if it says none. Codes srdf.wrong_kind, .xacro,
+// Returns the name of the robot that an SRDF's text is about; "" if it names none. Codes srdf.wrong_kind, .xacro,
 // .too_large, .bad_xml, .entities.
 Result<std::string> robot_of_srdf(std::string_view text);
 

@@ -25,7 +25,7 @@ std::string_view trimmed(std::string_view text) {
 }
 
 std::optional<double> number_in(std::string_view word) {
-  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);  // from_chars takes no plus sign
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);  // from_chars accepts no plus sign
   double value = 0.0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc{} || end != word.data() + word.size()) return {};
@@ -41,7 +41,7 @@ std::string fault_of(const tinyxml2::XMLDocument& document) {
   return line + "the XML is not well-formed (" + tinyxml2::XMLDocument::ErrorIDToName(document.ErrorID()) + ")";
 }
 
-// The bytes of the UTF-8 character at the front of the text; 0 if there is none.
+// The number of bytes of the UTF-8 character at the front of the text; 0 if there is none.
 std::size_t character_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
@@ -58,7 +58,8 @@ std::size_t character_length(std::string_view text) {
   return is_longer_than_needed || is_surrogate || code > 0x10ffff ? 0 : length;
 }
 
-// Files say UTF-8 and are Latin-1, and numbers of characters may be wrong; names go into JSON, which takes UTF-8 alone.
+// Converts text to valid UTF-8, which JSON needs: files that declare UTF-8 may be Latin-1, and character numbers may be
+// invalid.
 std::string in_utf8(std::string_view text) {
   std::string out;
   while (!text.empty()) {
@@ -74,7 +75,7 @@ std::string in_utf8(std::string_view text) {
 Result<XmlText> XmlText::parse(std::string_view text, const std::string& area) {
   if (text.size() > kMaxRobotBytes)
     return Issue{area + ".too_large", "", "larger than the allowed " + std::to_string(kMaxRobotBytes >> 20) + " MB"};
-  // Entities of a document's own would be left as they are, and elsewhere they are a way to fill the memory.
+  // Refuses a document's own entities: they would not be replaced, and elsewhere they are a way to exhaust memory.
   if (text.find("<!ENTITY") != std::string_view::npos)
     return Issue{area + ".entities", "", "the file declares entities of its own (<!ENTITY), which are not read"};
   XmlText out;

@@ -1,4 +1,4 @@
-// Reads XML of strangers within limits, and numbers that do not depend on the locale.
+// Reads untrusted XML within limits, and numbers that do not depend on the locale.
 #pragma once
 
 #include <map>
@@ -53,10 +53,10 @@ bool has_attribute(const XmlElement& element, const char* attribute);
 std::map<std::string, std::string> attributes_of(const XmlElement& element);
 std::string tag_of(const XmlElement& element);
 
-// Reads numbers that blanks or commas separate. Nothing for what is no finite number, or larger than 1e12.
+// Reads numbers that blanks or commas separate. Returns nothing if one is not finite or larger than 1e12.
 std::optional<std::vector<double>> numbers_in(std::string_view text, std::size_t most);
 
-// Names of strangers for messages: in quotes, of limited length, without control characters.
+// Makes untrusted names safe for messages: in quotes, of limited length, without control characters.
 std::string quoted_name(std::string_view name);
 
 }  // namespace contort

@@ -14,7 +14,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(0, text.find_last_not_of(kBlanks) + 1);
 }
 
-// Takes a cell in quotes off the line, up to the separator behind it. False if it has no end.
+// Takes a quoted cell and the separator after it off the line. Returns false if the quote has no end.
 bool take_quoted(std::string_view& line, char separator, std::string& cell) {
   line.remove_prefix(line.find('"') + 1);
   for (;;) {
@@ -36,7 +36,7 @@ std::string take_plain(std::string_view& line, char separator) {
   return std::string(trimmed(cell));
 }
 
-// Blanks that separate cells may stand in a row, and at both ends of the line.
+// Several blanks may separate cells, and blanks may stand at both ends of the line.
 void skip_separating_blanks(std::string_view& line, char separator) {
   if (separator == ' ') line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
 }
@@ -93,7 +93,7 @@ std::optional<double> number_in(std::string_view cell, bool may_have_comma) {
     std::ranges::replace(with_point, ',', '.');
     cell = with_point;
   }
-  if (cell.size() > 1 && cell[0] == '+' && cell[1] != '-') cell.remove_prefix(1);  // from_chars takes no plus sign
+  if (cell.size() > 1 && cell[0] == '+' && cell[1] != '-') cell.remove_prefix(1);  // from_chars accepts no plus sign
   double value = 0.0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (error != std::errc() || end != cell.data() + cell.size()) return std::nullopt;

@@ -9,22 +9,23 @@
 
 namespace contort {
 
-// Takes the lines of a text one after another, without their ends: LF, CR LF, or CR.
+// Returns the lines of a text one after another, without their ends: LF, CR LF, or CR.
 class TableLines {
  public:
   explicit TableLines(std::string_view text);  // a byte order mark at the beginning is skipped
   bool next(std::string_view& line);           // false at the end of the text
-  int number() const { return number_; }       // of the last line, from 1
+  int number() const { return number_; }       // number of the last line, from 1
 
  private:
   std::string_view rest_;
   int number_ = 0;
 };
 
-// The separator that a line of names has most of outside of quotes: a comma, a semicolon or a tab; else a blank.
+// The most frequent separator outside of quotes in a line of names: a comma, a semicolon or a tab; if it has none of
+// them, a blank.
 char separator_of(std::string_view line);
 
-// The cells of a line, trimmed, at most `most` and one more. Nothing if a quote has no end.
+// The cells of a line, trimmed, at most `most` + 1. Returns nothing if a quote has no end.
 std::optional<std::vector<std::string>> cells_of(std::string_view line, char separator, std::size_t most);
 
 // A finite or infinite number, or NaN; nothing if the text is anything else.

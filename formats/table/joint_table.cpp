@@ -18,12 +18,12 @@ namespace contort {
 
 namespace {
 
-constexpr std::size_t kMostShown = 40;    // bytes of a cell in a message
-constexpr int kMostComments = 100;        // lines before the names
-constexpr std::size_t kMostNamed = 12;    // names in a message
+constexpr std::size_t kMostShown = 40;    // greatest number of bytes of a cell in a message
+constexpr int kMostComments = 100;        // greatest number of lines before the names
+constexpr std::size_t kMostNamed = 12;    // greatest number of names in a message
 constexpr std::size_t kMostNameBytes = 256;
-constexpr double kLongestLog_s = 1e7;  // 116 days: larger times are those of a clock
-constexpr int kMostDigits = 15;  // behind the point, that a double can tell apart
+constexpr double kLongestLog_s = 1e7;  // 116 days: larger times are times of day, as seconds since 1970
+constexpr int kMostDigits = 15;  // decimals that a double can tell apart
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 constexpr char kExpected[] = "a table of joint values (CSV): a line of names, then numbers, with a column of times";
 
@@ -40,12 +40,12 @@ std::string listed_names(const std::vector<std::string>& names) {
   return names.size() <= kMostNamed ? text : text + " and " + std::to_string(names.size() - kMostNamed) + " more";
 }
 
-// The line of names, and how the lines after it are to be read.
+// The line of names, and the format of the lines after it.
 struct TableHead {
   std::vector<std::string> names;
   char separator = ',';
-  int times = -1;        // the column; -1 if rows have a rate instead
-  double seconds = 1.0;  // in one unit of the times
+  int times = -1;        // index of the column; -1 if rows have a rate instead
+  double seconds = 1.0;  // seconds in one unit of the times
   int line = 0;
 };
 
@@ -57,7 +57,7 @@ std::string_view without_mark_of_comment(std::string_view line) {
 
 bool is_blank_line(std::string_view line) { return line.find_first_not_of(" \t,;") == line.npos; }
 
-// An empty name at the end stands for nothing: lines may end with a separator.
+// An empty name at the end is dropped, because lines may end with a separator.
 std::vector<std::string> names_in(std::string_view line, char separator) {
   std::optional<std::vector<std::string>> names = cells_of(line, separator, kMaxTableColumns);
   if (!names) return {};
@@ -161,7 +161,7 @@ class TableReader {
     return Done{};
   }
 
-  // A table without times has them from its rate.
+  // Reads the time of a row; without a column of times it follows from the rate.
   Result<Done> add_time(const std::vector<std::string>& cells) {
     if (head_.times < 0) return out_.times_s.push_back(static_cast<double>(out_.row_count()) / rate_hz_), Done{};
     const std::string& cell = cells[at(head_.times)];
@@ -203,7 +203,7 @@ class TableReader {
 
   bool may_have_comma() const { return head_.separator == ';' || head_.separator == '\t'; }
 
-  // In an export of ROS, the position with number 3 is that of the joint with the name number 3.
+  // In an export of ROS, position number 3 belongs to the joint with name number 3.
   Result<Done> name_positions() {
     std::size_t named = 0;
     for (TableColumn& column : out_.columns) {
@@ -221,7 +221,7 @@ class TableReader {
     return Done{};
   }
 
-  // Times of the day, as seconds since 1970, say nothing to a reader of findings.
+  // Counts times from the first row: seconds since 1970 would make findings unreadable.
   void count_from_first() {
     const double first_s = out_.times_s.front();
     if (std::fabs(first_s) < kLongestLog_s) return;
@@ -230,7 +230,7 @@ class TableReader {
                                                std::to_string(static_cast<std::int64_t>(first_s)) + " s"});
   }
 
-  // Names that have lost their units, or that ROS gives, may be equal.
+  // Names may be equal after their units were removed, or in an export of ROS.
   Result<Done> check_once() const {
     std::set<std::string> known;
     for (const TableColumn& column : out_.columns)

@@ -32,17 +32,17 @@ inline constexpr double kMaxTableValue = 1e6;    // rad, m or degrees either way
 inline constexpr double kMaxTableTime_s = 1e11;  // the year 5138, counted from 1970
 
 struct TableColumn {
-  std::string name{};           // without its unit
-  std::string unit{};           // as the name says in brackets: "deg"; "" if it says none
-  std::optional<Issue> fault{};  // the first cell that is no number within the limits; its value is NaN
+  std::string name{};           // without the unit
+  std::string unit{};           // the unit in brackets in the name: "deg"; "" for none
+  std::optional<Issue> fault{};  // the first invalid cell, whose value is NaN
   bool operator==(const TableColumn&) const = default;
 };
 
 struct JointTable {
-  std::vector<TableColumn> columns;  // without that of the times, each name once
+  std::vector<TableColumn> columns;  // without the column of times; each name occurs once
   std::vector<double> times_s;       // at least one, ascending
   std::vector<double> values;        // row by row, as in the file
-  double time_digit_s = 0.0;         // of the last digit that is written of any time; 0 if it is not known
+  double time_digit_s = 0.0;         // the smallest digit in which any time is written; 0 if unknown
   std::vector<Remark> remarks;
 
   std::size_t row_count() const { return times_s.size(); }
@@ -53,8 +53,8 @@ struct JointTable {
 // Returns true if the beginning of a file is that of such a table with a column of times.
 bool is_joint_table(std::string_view beginning);
 
-// With a rate above 0 the table must have no column of times: rows are 1 / rate_hz apart. Codes "table.*"; the pointer
-// is a line: "line 12".
+// If `rate_hz` is above 0, the table must have no column of times, and rows are 1 / rate_hz apart. Codes "table.*"; the
+// pointer is a line: "line 12".
 Result<JointTable> read_joint_table(const std::string& path, double rate_hz = 0.0);
 Result<JointTable> parse_joint_table(std::string_view text, double rate_hz = 0.0);
 

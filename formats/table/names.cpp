@@ -38,7 +38,7 @@ NameAndUnit split_unit(std::string_view name) {
     const std::size_t open = name.rfind(brackets[0]);
     if (open == name.npos || open == 0 || !name.ends_with(brackets[1])) continue;
     const std::string_view unit = name.substr(open + 1, name.size() - open - 2);
-    if (unit.find_first_not_of("0123456789") == unit.npos) continue;  // the entry of a list: "position[3]"
+    if (unit.find_first_not_of("0123456789") == unit.npos) continue;  // an entry of a list: "position[3]"
     std::string_view plain = name.substr(0, open);
     plain = plain.substr(0, plain.find_last_not_of(' ') + 1);
     return {std::string(plain), in_lower_case(unit)};

@@ -1,5 +1,5 @@
-// Tells from the names of a table's columns which one has the times, in which unit values are, and which columns of an
-// export of ROS belong together.
+// Finds by the names of a table's columns the column of times, the units of values, and the columns of an export of ROS
+// that belong together.
 #pragma once
 
 #include <optional>
@@ -15,11 +15,11 @@ struct NameAndUnit {
 };
 NameAndUnit split_unit(std::string_view name);
 
-// Seconds in one unit of a column of times; nothing if the name is of no such column.
+// Seconds in one unit of a column of times; nothing if the name is not that of such a column.
 std::optional<double> seconds_per_unit(std::string_view name);
 
-// The column of the times among these names: a message's own stamp in an export of ROS, else the first that has a name
-// of times; -1 if no column has times.
+// The column of times among these names: a message's own stamp in an export of ROS, otherwise the first with a name for
+// times; -1 if there is none.
 int find_times(const std::vector<std::string>& names);
 
 inline constexpr char kTimeNames[] =

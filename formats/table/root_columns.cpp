@@ -32,7 +32,7 @@ std::vector<std::string> words_of(std::string_view name) {
   return words;
 }
 
-// The axis may be written at the quantity: "tx", "posx", "qw" and "quatw".
+// Splits off an axis that is written together with the quantity: "tx", "posx", "qw" and "quatw".
 bool part_axis(std::vector<std::string>& words) {
   if (words.empty()) return false;
   const std::string last = words.back();

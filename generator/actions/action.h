@@ -35,7 +35,7 @@ enum class Spread {
   legs,  // the root part, which the spec must name, and all legs and feet
 };
 
-// The event that an action may bring about on the parts that it moves.
+// The event that an action may cause on the parts that it moves.
 enum class Tells {
   nothing,
   contact,      // of feet, or of the part that the spec names
@@ -62,39 +62,39 @@ struct ActionTime {
   double since_s = 0.0;     // since it took the part; after an interrupt this is later than its start
   double left_s = 0.0;      // from taking the part to its end
   double takes_s = 0.0;     // from its start to its end, as it is played
-  double comes_in_s = 0.0;  // over which its use has it blend in and fade out, as it is played; 0: it does not say
+  double comes_in_s = 0.0;  // time in which it blends in and fades out by its use, as it is played; 0: automatic
   double fades_s = 0.0;
   double frame_s = 0.0;     // duration of a frame of the motion; a frame plays duration_s / takes_s times as much
                             // content
   double fades_by_s = 0.0;  // from its start to the end of its period, by which it has faded, as it is played
 };
 
-// The other hand that is to hold the object that is aimed.
+// The other hand that must hold the aimed object.
 struct SecondHand {
   int arm = -1;            // its part; -1: the object is aimed with one hand
   int point = -1;          // the socket that it holds
   double reach_m = 0.0;    // from its shoulder to its grip, stretched
-  double easy_rad = 0.0;   // the azimuth of the target from the chest at which both hands reach with ease
+  double easy_rad = 0.0;   // the azimuth of the target from the chest at which both hands reach comfortably
   bool operator==(const SecondHand&) const = default;
 };
 
-// The data that an aiming action has from the start.
+// The data of an aiming action that are fixed from its start.
 struct AimPlan {
   AimChain chain;
   std::shared_ptr<const AimTable> table;
-  int chest = -1;      // the face of the torso on which the part hangs, which can turn to help it; -1: no torso does
+  int chest = -1;      // the face of the torso that carries the part and can turn to help it; -1: no torso does
   bool helps = false;  // a torso that helps: it turns about the vertical, and does not lean
   SecondHand second;
 };
 
-// A target whose azimuth from the chest is greater has the torso turn, as people do (docs/internals/aim.md).
+// If the azimuth of a target from the chest is greater, the torso turns, as people do (docs/internals/aim.md).
 inline constexpr double kEasyAim_rad = 60.0 * kRadPerDeg;
 
 // With two hands on the object, people stand with the shoulder of the front hand forward, and aim across the chest.
 inline constexpr double kBladed_rad = 30.0 * kRadPerDeg;
-inline constexpr double kEasyOfTwoHands_rad = 15.0 * kRadPerDeg;  // more or less than that
+inline constexpr double kEasyOfTwoHands_rad = 15.0 * kRadPerDeg;  // the allowed deviation from that
 
-// From where a socket's +Z faces to a point, about its +Y; [-pi, pi].
+// The azimuth of a point from the direction of a socket's +Z, about its +Y; [-pi, pi].
 double azimuth_rad(const Rigid& world_from_socket, const Vec3& point_world_m);
 
 // The state that one use of an action that moves several parts keeps from frame to frame.
@@ -106,42 +106,41 @@ struct WholeBody {
   std::array<bool, kMaxLegs> lands{};
   std::array<Rigid, kMaxLegs> seen_soles{};   // places of the feet when it begins, in the world
   std::array<Rigid, kMaxLegs> first_soles{};  // places at which the course wants the feet when it begins
-  double swivel_rad = 0.0;                    // turn of a limb about the line to its target, if the request leaves it
-                                              // open
-  int way_chosen_in = -1;                     // frame in which the part was taken
+  double swivel_rad = 0.0;  // rotation of a limb about the line to its target, if the request leaves it open
+  int way_chosen_in = -1;                     // frame in which the action took the part
   Vec3 detour_rad{0.0};                       // detour round bodies on the way to the target (limb_way.h)
   double wanted_swivel_rad = 0.0;             // swivel to which it turns while its target moves
   bool chooses_swivel = false;                // the swivel is chosen again, because bodies are too near at the target
                                               // posture
-  Vec3 swivel_chosen_for_m{0.0};              // the target then, from the limb's shoulder, in its carrier's frame
-  Quat faced = kNoRotation;                   // direction of the root when a course began first, in the world
-  std::array<double, kMaxAimCoords> aimed{};  // coordinates of the chain, in the frame before
+  Vec3 swivel_chosen_for_m{0.0};  // the target at that time, from the limb's shoulder, in its carrier's frame
+  Quat faced = kNoRotation;                   // direction of the root when a course first began, in the world
+  std::array<double, kMaxAimCoords> aimed{};  // coordinates of the chain, in the previous frame
   bool has_help = false;                      // a torso or legs are turning for this aim
-  bool had_help = false;                      // in the frame before
-  Pace pace;                                  // the share of the requested gait that the legs can make
-  GaitParams gait_params;                     // at this pace
-  bool comes_at_once = false;                 // the course begins where the figure stands, and no blend must hurry it
+  bool had_help = false;                      // the same in the previous frame
+  Pace pace;                                  // fraction of the requested gait that the legs can make
+  GaitParams gait_params;                     // parameters of the gait at this pace
+  bool comes_at_once = false;                 // the course begins where the figure stands, so it needs no blend
   double lasts_s = 0.0;                       // duration of the walk, s of content; then the figure stands
   bool is_slower = false;                     // it walks more slowly than requested, or turns less
   Vec3 over_feet_m{0.0};                      // offset of lowered hips that balances the figure's mass over its feet
   double deepest_bend = 1.0;                  // fraction of the way down that the legs allow, [0, 1]
   double since_s = 0.0;                       // time of `frame`, s of content since the root was taken
-  std::optional<GaitFrame> lowest;            // of a bend
+  std::optional<GaitFrame> lowest;            // lowest frame of a bend
 };
 
-// The data that a rule may look at. Joints of carriers are final for this frame. On the layers ik and additive the
-// part's own entries of `world` stand where the posture puts them, and are scratch; on overwrite they mean nothing.
+// The data that a rule may read. Joints of carriers are final for this frame. On the layers ik and additive the part's
+// own entries of `world` are its placement in the posture, and are scratch; on overwrite they are undefined.
 struct RuleInput {
   const Character& character;
-  const Part& part;                // the one to move
+  const Part& part;                // the part that the rule moves
   std::span<const double> params;  // in the order of ActionDef::params; a vector takes three
   std::span<Rigid> world;
   TrialSpace scratch;
   const ActionTime& time;
-  const Rigid& world_from_start;  // the place where the character stood at first
+  const Rigid& world_from_start;  // place of the character at its start
   const Environment& environment;
   std::span<const Leg> legs;
-  const Rigid& stands_at;  // a turn about +Y and a place on the plane y = 0: where legs have carried it by now
+  const Rigid& stands_at;  // a turn about +Y and a place on the plane y = 0: the place to which legs have carried it
   const AimPlan* aim;  // only for actions with an own_point
   const KeyPlan* keys;  // only for key poses from a file
   const ScriptPlan* script;  // only for a script that sets joints; `params` is then its row
@@ -168,38 +167,38 @@ struct ActionDef {
   std::vector<ParamDef> (*params)(const Character&, const Part&);
   // Returns true if the part has everything that the action needs.
   bool (*supports)(const Character&, const Part&);
-  // Writes the part's coordinates (and, on the root part, the root) of the target posture into one that holds what is
-  // beneath: the present posture for overwrite, the base for ik, everything below for additive.
+  // Writes the part's coordinates (and, on the root part, the root) of the target posture into a posture that holds the
+  // layers beneath: the present posture for overwrite, the base for ik, everything below for additive.
   void (*rule)(const RuleInput&, Posture&);
 };
 
-// The built-in ones.
+// The built-in actions.
 std::span<const ActionDef> all_actions();
-const ActionDef* find_action(std::string_view name);  // nullptr where there is none
+const ActionDef* find_action(std::string_view name);  // nullptr if there is none
 
-// An action that a part can do: a built-in one, or one from a file (action_desc.h), which has a built-in one's rule.
-// Valid as long as the character is.
+// An action of a part: a built-in one, or one from a file (action_desc.h), which uses the rule of a built-in one. Valid
+// as long as the character is.
 struct Action {
   std::string_view name;
   std::string_view help;
   const ActionDef* def = nullptr;
-  const ActionDesc* desc = nullptr;  // for an action from a file; else null
+  const ActionDesc* desc = nullptr;  // for an action from a file; otherwise null
 };
 
-// The rule of an action of a file; nullptr where `of` names none.
+// The rule of a file's action; nullptr if `of` names none.
 const ActionDef* def_of(const ActionDesc& desc);
 
-// In the order of the registry, then of the files. Of several with one name the one that is for the part by name is
-// meant, else the one that is for its kind, else the built-in one.
+// The actions in the order of the registry, then of the files. Of several with one name, the one for this part by name
+// counts; if there is none, the one for its kind; otherwise the built-in one.
 std::vector<Action> actions_of(const Character& character, const Part& part);
 
 // The action of that name, if the part can do it.
 std::optional<Action> find_action(const Character& character, const Part& part, std::string_view name);
 
-// Built-in ones and those of the character's files.
+// Returns true for names of built-in actions and of the character's files.
 bool is_action_name(const Character& character, std::string_view name);
 
-// The parameters on a part that can do it, with the file's values, mirrored on the right side, for presets.
+// The parameters of an action on a part. The file's values are their presets, mirrored on the right side.
 std::vector<ParamDef> params_of(const Action& action, const Character& character, const Part& part);
 
 ParamValue mirrored(Mirrored how, const ParamValue& value);
@@ -209,13 +208,13 @@ ParamValue mirrored(Mirrored how, const ParamValue& value);
 // .fits_nothing, .unknown_param, .wrong_type, .out_of_range, .bad_script, .script_failed, with pointers into the file.
 Result<Done> check_actions(const Library& library);
 
-// Points of attached objects that others than this part carry: "foregrip", "muzzle".
+// Points of attached objects that other parts than this one carry: "foregrip", "muzzle".
 std::vector<std::string> object_points(const Character& character, const Part& part);
 
-// Points that this part or one that hangs on it carries.
+// Points that this part, or a part attached to it, carries.
 std::vector<std::string> own_points(const Character& character, const Part& part);
 
-// Returns true if a part carries several parts, as a torso does. They do not form one limb with it.
+// Returns true if a part carries several parts, as a torso does. Such a part does not form one limb with them.
 bool is_trunk(const Character& character, int part);
 
 // The parts that one use moves, carriers first.

@@ -1,4 +1,4 @@
-// The frames that a course of legs comes to, for whoever moves what legs hang on.
+// The next frames of a course of legs, for actions that move the legs' carriers.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace contort {
 
-// The present frame, those within a cycle of a gait from now on or at the lowest point of a bend, and where it stands.
+// The present frame, the frames of the next cycle of a gait or the lowest point of a bend, and the standing pose.
 using FramesAhead = std::array<GaitFrame, 16>;
 FramesAhead frames_ahead(const WholeBody& course);
 

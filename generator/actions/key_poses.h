@@ -1,4 +1,4 @@
-// Key poses of an action file: each joint goes from where the action found it through the keys that name it.
+// Key poses of an action file: each joint moves from its posture at the action's start through the keys that name it.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@ namespace contort {
 
 struct ActionDef;
 
-// The keys as they are for one part.
+// The keys of one part, in its coordinates.
 struct KeyPlan {
   struct Node {
     double at = 1.0;  // fraction of the period
@@ -27,7 +27,7 @@ struct KeyPlan {
 // The rule of all key poses: a course on the overwrite layer that moves one part and has no parameters.
 const ActionDef& key_pose_def();
 
-// For a part that can do the action (find_action).
+// Only for a part that can perform the action (find_action).
 KeyPlan plan_keys(const ActionDesc& action, const Character& character, const Part& part);
 
 }  // namespace contort

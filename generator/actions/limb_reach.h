@@ -1,4 +1,5 @@
-// The reach of a limb to a point: the choice that two bones leave open, and travels where the bones are too short.
+// The reach of a limb to a point: chooses the swivel, which two bones leave open, and uses travels if the bones are too
+// short.
 #pragma once
 
 #include <optional>
@@ -8,10 +9,10 @@
 
 namespace contort {
 
-// Brings the chain's tip to a point of the world. The swivel is chosen when the action takes the part: one that keeps
-// joints in their ranges and bodies apart, as near to the given one as that allows; where none is given, one that holds
-// the elbow low and is near to where the limb is. The part's travels come out as far as they must. Returns the distance
-// of the tip from the point, m.
+// Brings the chain's tip to a point of the world. The swivel is chosen when the action takes the part: it keeps joints
+// in their ranges and bodies apart, and is as near to the given one as possible; without a given one, it keeps the
+// elbow low and the limb near its present posture. The part's travels extend only as far as necessary. Returns the
+// distance of the tip from the point, m.
 double reach_with_travels(const RuleInput& in, const ReachChain& chain, const Vec3& target_world_m,
                           std::optional<double> swivel_rad, Posture& posture);
 
@@ -20,13 +21,13 @@ double reach_with_travels(const RuleInput& in, const ReachChain& chain, const Ve
 // second.
 double follow_with_travels(const RuleInput& in, const ReachChain& chain, const Vec3& target_world_m, Posture& posture);
 
-// The turn of a limb about its line to the target, rad, with the least cost: 24 turns, the first one 0, then to either
-// side, and finer ones beside the best. Of turns that cost the same the first one is taken, as rounding must not choose; a limb on the right tries the
-// mirror images.
+// The rotation of a limb about its line to the target, rad, with the least cost. It tries 24 rotations, the first one
+// 0, then to either side, and finer ones beside the best. Of equal ones the first is taken, so that rounding does not
+// choose; a limb on the right tries the mirror images.
 double cheapest_swivel(Side side, FunctionRef<double(double swivel_rad)> cost);
 
-// The cost of the posture of a limb that is placed in in.world: joints out of range, bodies too near, an elbow that is
-// held high, and a long way from where the action found the part.
+// The cost of the posture of a limb that is placed in in.world: joints out of range, bodies too near, a high elbow, and
+// a great distance from the posture at the action's start.
 double cost_of_placed(const RuleInput& in, const Posture& posture);
 
 }  // namespace contort

@@ -9,10 +9,9 @@ namespace contort {
 // Returns true if bodies have room at seven stops on the blend of the limb from in.from to the posture.
 bool has_way(const RuleInput& in, Posture& posture);
 
-// Takes the limb round bodies that are on its way: when the action takes the part, it chooses the least detour that is
-// free, or else the one with the most room, and in each frame it raises the first joint by what is left of it. `posture`
-// is what the action wants.
-// Only for courses on the layer ik, whose joints blend in.
+// Moves the limb round bodies on its path. When the action takes the part, it chooses the smallest free detour, or else
+// the one with the most room. In each frame it raises the first joint by the rest of the detour. `posture` is the
+// action's wanted posture. Only for courses on the layer ik, whose joints blend in.
 void go_round(const RuleInput& in, Posture& posture);
 
 }  // namespace contort

@@ -2,8 +2,8 @@
 // or parameters of a built-in action, from time, parameters and surroundings.
 //
 // A script is run from its first line to its last in every frame, and keeps nothing from one run to the next, so its
-// result depends only on its input. It has no files, no clock and no random numbers, and the functions that Contort
-// gives it have the same bits everywhere; a run may take kMaxScriptSteps instructions and kMaxScriptBytes of memory.
+// result depends only on its input. It has no files, no clock and no random numbers, and the functions that it may call
+// have the same bits everywhere. A run may take kMaxScriptSteps instructions and kMaxScriptBytes of memory.
 #pragma once
 
 #include <memory>
@@ -26,15 +26,15 @@ struct ActionDef;
 inline constexpr int kMaxScriptSteps = 20'000;
 inline constexpr std::size_t kMaxScriptBytes = std::size_t{1} << 20;
 
-// A script for one part: what it reads and what it sets. Its own row holds all numbers that it sets, a vector as three.
+// A script for one part: its inputs and results. Its own row holds all numbers that it sets, a vector as three.
 struct ScriptPlan {
   enum class Kind { number, vector, hinge, ball, travel };
   struct Value {
     std::string name;  // "elbow_deg"
     Kind kind = Kind::number;
-    int source = 0;  // its place among the action's parameters, or the joint's coordinate in a posture
-    int first = 0;   // its place in the row of values that the script sets; for a value that it only reads, equal to
-                     // `source`
+    int source = 0;  // index among the action's parameters, or of the joint's coordinate in a posture
+    // Index in the row of values that the script sets; for a value that it only reads, equal to `source`.
+    int first = 0;
     double low = 0.0;
     double high = 0.0;
     Mirrored mirrored = Mirrored::same;  // on the right side; same on the left
@@ -67,7 +67,7 @@ class ScriptHost {
   // Checks that the lines compile. Code action.bad_script.
   static Result<Done> check(const std::vector<std::string>& lines);
 
-  // Forgets all scripts that it has compiled.
+  // Removes all compiled scripts.
   void begin();
 
   // Runs a script: `row` holds the values before and after. Codes action.bad_script (it does not compile) and
@@ -95,16 +95,17 @@ const ActionDef& course_of(const ActionDef& def);
 // because a script can set joints directly.
 bool takes_computed_params(const ActionDef& def, const Character& character, const Part& part);
 
-// For an action whose script can be done by the part (can_do in own_actions.cpp).
+// Only for an action whose script can run on the part (can_do in own_actions.cpp).
 ScriptPlan plan_script(const ActionDesc& action, const Character& character, const Part& part);
 
-// The script's row without the script: the joints of the posture (0 where the script adds), or the parameters.
+// Fills the script's row before it runs: the joints of the posture (0 if the script adds), or the parameters.
 void start_row(const ScriptPlan& plan, std::span<const double> params, const Posture& posture, std::span<double> row);
 
-// Puts what a script has set into a row of the action's parameters.
+// Copies the values that a script has set into a row of the action's parameters.
 void put_params(const ScriptPlan& plan, std::span<const double> row, std::span<double> params);
 
-// Tries the script on the part at rest, at begin, middle and end, on level ground, with the presets of its parameters.
+// Tries the script on the part at rest, at the begin, middle and end of the action, on level ground, with the presets
+// of its parameters.
 Result<Done> try_script(const ActionDesc& action, const Character& character, const Part& part);
 
 }  // namespace contort

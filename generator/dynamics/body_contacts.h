@@ -1,6 +1,7 @@
-// Contacts of a figure's bodies with each other: while something acts from outside, an arm that swings stops at the
-// trunk or at a thigh, as a joint stops at its end (joint_ends.h). Only the pairs of bodies that self_collision judges
-// can touch. Bodies that overlap do not go farther into each other, and are not pushed apart: their target may want it.
+// Contacts of a figure's bodies with each other. While a force acts from outside, a swinging arm stops at the trunk or
+// at a thigh, as a joint stops at its end (joint_ends.h). Only the pairs of bodies that self_collision judges can
+// touch. Bodies that overlap do not go farther into each other, but are not pushed apart, because their target may
+// require the overlap.
 #pragma once
 
 #include <span>
@@ -15,7 +16,7 @@ namespace contort {
 struct BodyContact {
   int link_a = 0;
   int link_b = 0;
-  Vec3 from_root_m{0.0};  // where they would touch; world axes
+  Vec3 from_root_m{0.0};  // point of contact; world axes
   Vec3 normal{0.0};       // unit, from a to b
   double gap_m = 0.0;     // < 0: they overlap
 };
@@ -25,15 +26,15 @@ class BodyContacts {
   // The character and the body must outlive this object.
   void begin(const Character& character, const DynamicFigure& figure);
 
-  // Finds the contacts that are nearer than `within_m`, at the placed pose. Those that slow() and stop() cannot keep
-  // open, such as of two feet, are left out of a figure that stands.
+  // Finds the contacts that are nearer than `within_m`, at the placed pose. In a standing figure, contacts that slow()
+  // and stop() cannot keep open, such as those of two feet, are left out.
   void find(const DynamicsScratch& dynamics, double within_m, bool stands);
   void clear() { contacts_.clear(); }
   std::span<const BodyContact> contacts() const { return contacts_; }
 
-  // Bounds accelerations so that no contact is closed so far ahead, and velocities so that none is in this tick. The
-  // freedoms of legs and of the trunk are left alone, and of the others those that move least mass change most; for
-  // this the equation's mass matrix may be that of an earlier tick.
+  // Bounds accelerations so that no contact closes within `ahead_s`, and velocities so that none closes in this tick.
+  // Degrees of freedom of legs and trunk are not changed; of the others, those that move least mass change most. The
+  // equation's mass matrix may be from an earlier tick.
   void slow(const EquationOfMotion& equation, double ahead_s, std::span<double> acceleration);
   void stop(const EquationOfMotion& equation, double tick_s, std::span<double> velocity);
 
@@ -41,12 +42,13 @@ class BodyContacts {
   struct Pair {
     std::size_t a = 0;  // indices of solids
     std::size_t b = 0;
-    bool gives_way = false;  // some freedom between the two is not left alone
+    bool gives_way = false;  // some degree of freedom between the two may change
   };
-  struct Share {  // of a freedom: how fast a contact opens for its unit rate, and how much mass it moves
+  // The effect of a degree of freedom: the rate at which its unit rate opens a contact, and the mass that it moves.
+  struct Share {
     std::size_t dof = 0;
     double opens = 0.0;
-    double mass = 0.0;  // infinite if the freedom is left alone
+    double mass = 0.0;  // infinite if the degree of freedom must not change
   };
   void find_shares(const EquationOfMotion& equation, const BodyContact& contact);
   double opening(const BodyContact& contact) const;
@@ -54,18 +56,19 @@ class BodyContacts {
   template <class Missing>
   void open_where(const EquationOfMotion& equation, std::span<double> rates, Missing missing);
 
-  std::vector<int> links_;     // by solid
-  std::vector<Solid> solids_;  // in the frames of their links
+  std::vector<int> links_;     // link of each solid
+  std::vector<Solid> solids_;  // solids in the frames of their links
   std::vector<Solid> placed_;  // relative to the root's origin, world axes
   std::vector<Pair> pairs_;
-  std::vector<char> left_alone_;  // by freedom
+  std::vector<char> left_alone_;  // by degree of freedom
   std::vector<BodyContact> contacts_;
-  std::vector<double> openings_;        // by contact: rates at which they open, of slow
-  std::vector<SpatialMotion> motions_;  // by link: what the rates do
-  std::vector<Share> shares_;           // of one contact
+  std::vector<double> openings_;        // by contact: rates at which they open, for slow()
+  std::vector<SpatialMotion> motions_;  // by link: motions due to the rates
+  std::vector<Share> shares_;           // for one contact
 };
 
-// Calls visit(dof, moves_a) for each freedom that moves one of two links and not the other, and says whether it is a.
+// Calls visit(dof, moves_a) for each degree of freedom that moves one of two links and not the other; `moves_a` is true
+// if it moves a.
 template <class Visit>
 void for_freedoms_between(const Multibody& body, int link_a, int link_b, Visit visit) {
   const auto last_dof = [&](int link) {
@@ -80,7 +83,8 @@ void for_freedoms_between(const Multibody& body, int link_a, int link_b, Visit v
   }
 }
 
-// Calls visit(dof, opens) for these freedoms of a contact: a unit rate of one opens it by `opens` a second.
+// Calls visit(dof, opens) for these degrees of freedom of a contact: a unit rate of one opens the contact by `opens`
+// per second.
 template <class Visit>
 void for_openings(const Multibody& body, const DynamicsScratch& dynamics, const BodyContact& contact, Visit visit) {
   for_freedoms_between(body, contact.link_a, contact.link_b, [&](std::size_t dof, bool moves_a) {

@@ -1,4 +1,4 @@
-// Links that move together while several feet stand, the root and all of legs: they must head for the same knots.
+// Links that move together while several feet stand: the root and all links of legs. They must follow the same knots.
 #pragma once
 
 #include <vector>

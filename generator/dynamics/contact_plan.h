@@ -1,5 +1,5 @@
-// The feet of a target motion: where its soles are in each frame, and which of their corners bear. A foot that rolls
-// over its heel or its toes bears on two corners.
+// The feet of a target motion: the places of its soles in each frame, and the corners that bear. A foot that rolls over
+// its heel or its toes bears on two corners.
 #pragma once
 
 #include <cstdint>
@@ -20,20 +20,20 @@ class ContactPlan {
               const Motion& motion);
 
   int frame_count() const { return frame_count_; }
-  // A sole bears on the corners that are near the ground and keep their place, and from there as far as it is less than
-  // 2 cm above the ground.
+  // A sole bears on the corners that are near the ground and stay in place, and then as long as these are less than 2
+  // cm above the ground.
   const Bearing& bearing(int frame, int sole) const { return bearings_[index(frame, sole)]; }
-  // Bit i: sole i bears on any corner.
+  // Bit i: sole i bears on at least one corner.
   std::uint8_t standing(int frame) const;
   const Rigid& sole(int frame, int sole) const { return soles_[index(frame, sole)]; }
   // Frames to the nearest one in which the sole bears: 0 while it does.
   int airborne(int frame, int sole) const { return airborne_[index(frame, sole)]; }
-  // Takes over where a motion has the soles that do not bear.
+  // Copies the places of soles that do not bear from a motion.
   void move_airborne(const Character& character, const DynamicFigure& figure, const Motion& motion);
-  // At a time in frames, between frames by cubics; before the first frame and after the last one it stays there, with
-  // the rates that it has beside them.
+  // The sole at a time in frames, interpolated by cubics. Before the first frame and after the last one it stays in
+  // place, with the rates of these frames.
   SoleMotion sole_at(double frame, int sole) const;
-  // m/s^2, rad/s^2, world axes: between those of the frames, from their neighbours.
+  // m/s^2, rad/s^2, world axes: interpolated between the frames' accelerations, which come from neighbouring frames.
   void acceleration_at(double frame, int sole, Vec3& linear, Vec3& angular) const;
 
  private:

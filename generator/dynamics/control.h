@@ -14,19 +14,19 @@
 
 namespace contort {
 
-inline constexpr std::size_t kMostHandles = 8;  // of one group
+inline constexpr std::size_t kMostHandles = 8;  // greatest number of handles of one group
 
-// All of a tick that control looks at, and what it changes: accelerations and the forces that belong to them.
+// The data of a tick for control, and the accelerations and forces that it changes.
 struct ControlTick {
   const DynamicFigure& figure;
   DynamicsScratch& dynamics;     // after inverse_dynamics with acceleration 0
   std::span<const double> mass;  // mass_matrix
-  std::span<const char> legs;    // by freedom: of legs that stand
+  std::span<const char> legs;    // by degree of freedom: true for legs that stand
   SupportRows& support;
   const SupportArea& area;
   const GroundShare& ground;
   double weight_N = 0.0;
-  std::span<double> acceleration;  // of the actual figure
+  std::span<double> acceleration;  // accelerations of the actual figure
   std::span<double> forces;        // M a + h
 };
 
@@ -37,14 +37,14 @@ class DynamicControl {
   // Changes tick.acceleration and tick.forces.
   void correct(const ControlTick& tick);
 
-  // Forgets what it was doing: where feet have come or gone in this tick.
+  // Resets control: feet have landed or left the ground in this tick.
   void rest();
 
-  // The accelerations that it added in the last tick, by freedom.
+  // The accelerations that it added in the last tick, by degree of freedom.
   std::span<const double> added() const { return added_; }
 
  private:
-  // A handle's unit acceleration, and the forces that it takes.
+  // A handle's unit acceleration, and the necessary forces.
   struct Column {
     std::vector<double> acceleration;
     std::vector<double> forces;
@@ -66,12 +66,12 @@ class DynamicControl {
 
   double relief_lag_ = 1.0;
   double balance_lag_ = 1.0;
-  std::vector<double> relief_;  // by handle of all groups: the accelerations that are given now
+  std::vector<double> relief_;  // by handle of all groups: the present additional accelerations
   std::vector<double> balance_;
   std::vector<double> added_;
   std::vector<double> overload_;
   std::vector<double> nominal_;   // forces without loads
-  std::vector<double> bearable_;  // by watched freedom, N m
+  std::vector<double> bearable_;  // by watched degree of freedom, N m
   std::vector<Column> columns_;
   bool legs_ready_ = false;
   bool columns_ready_ = false;

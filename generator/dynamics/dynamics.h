@@ -28,18 +28,18 @@ struct Placement {
 
 // The places of all bodies, and memory of the recursions over them. Spatial vectors: about world[0].origin_m.
 struct DynamicsScratch {
-  std::vector<double> angles_rad;       // of hinges, by link; 0 for others
-  std::vector<det::SinCos> turns;       // by these
+  std::vector<double> angles_rad;       // angles of hinges, by link; 0 for others
+  std::vector<det::SinCos> turns;       // sines and cosines of these
   std::vector<Placement> world;         // world_from_link
-  std::vector<SpatialMotion> freedoms;  // by freedom: what a unit rate of it does
+  std::vector<SpatialMotion> freedoms;  // by degree of freedom: the motion due to its unit rate
   std::vector<SpatialInertia> inertia;  // by link
   std::vector<SpatialMotion> velocity;
   std::vector<SpatialMotion> acceleration;
   std::vector<SpatialForce> force;
-  std::vector<SpatialInertia> composite;  // of all that moves with a link
+  std::vector<SpatialInertia> composite;  // inertia of each link with all its descendants
 };
 
-// Everything below works on the pose that was placed last.
+// Everything below uses the pose that was placed last.
 void place(const Multibody& body, const Rigid& world_from_root, std::span<const double> coords,
            DynamicsScratch& scratch);
 
@@ -58,12 +58,13 @@ void mass_matrix(const Multibody& body, DynamicsScratch& scratch, std::span<doub
 // out = M x of a symmetric matrix; entries of x that are 0 cost nothing.
 void multiply(std::span<const double> matrix, std::span<const double> x, std::span<double> out);
 
-// M = L^T D L in place of its lower triangle, without filling any zero; then solves M x = b, x in place of b. M of
-// bodies with mass is positive definite; a last link without mass gives infinities.
+// M = L^T D L in place of its lower triangle, without fill-in; then solves M x = b, x in place of b. M of bodies with
+// mass is positive definite; a last link without mass gives infinities.
 void factorise(const Multibody& body, std::span<double> matrix);
 void solve(const Multibody& body, std::span<const double> factors, std::span<double> x);
 
-// The same for six right-hand sides at once, in one pass over the factors: x[i] holds the entries of freedom i.
+// The same for six right-hand sides at once, in one pass over the factors: x[i] holds the entries of degree of freedom
+// i.
 using Six = std::array<double, 6>;
 void solve_six(const Multibody& body, std::span<const double> factors, std::span<Six> x);
 
@@ -74,7 +75,7 @@ void point_jacobian(const Multibody& body, const DynamicsScratch& scratch, int l
 void angular_jacobian(const Multibody& body, const DynamicsScratch& scratch, int link, std::span<double> rows);
 
 // The acceleration of a point fixed to a link (m/s^2, world). After inverse_dynamics with acceleration 0 and gravity 0
-// that is what the present velocities alone cause: dJ/dt v.
+// it is the part that depends on the present velocities alone: dJ/dt v.
 Vec3 point_acceleration(const DynamicsScratch& scratch, int link, const Vec3& point_world_m);
 
 // Moves a pose by generalised velocities over a time: the root's and balls' rotations by the exponential map.

@@ -7,7 +7,7 @@
 
 namespace contort {
 
-// Rows by freedom: accelerations, the generalised forces M a + h that they take, and the joints' efforts (N m, N).
+// Rows by degree of freedom: accelerations, the generalised forces M a + h for them, and the joints' efforts (N m, N).
 struct Actuation {
   std::vector<double> acceleration;
   std::vector<double> forces;
@@ -18,16 +18,17 @@ struct Actuation {
   }
 };
 
-// Accelerations on the way from those of `hold` to these, by a share in [0, 1].
+// Moves accelerations from those of `hold` towards these, by a fraction in [0, 1].
 void take_back(const Actuation& hold, double share, Actuation& actuation);
 
-// Each term holds for the state in which it was found, and is found in this order. The state is anybody's to change.
+// Each term belongs to the state for which it was computed, and the terms are computed in this order. Callers may
+// change the state.
 struct EquationOfMotion {
   const DynamicFigure* figure = nullptr;
   FigureState state;
   DynamicsScratch dynamics;     // of the placed pose; after find_bias with the links' velocities
-  std::vector<double> mass;     // M, as mass_matrix
-  std::vector<double> factors;  // of M, as factorise
+  std::vector<double> mass;     // factors of M, by factorise
+  std::vector<double> factors;  // h: the forces without any acceleration
   std::vector<double> bias;     // h: the forces of no acceleration at all
   std::vector<double> still;    // zeros
 

@@ -1,5 +1,5 @@
-// The contacts of a figure's soles with the ground: where soles are led, on which corners they bear, and what that asks
-// of accelerations.
+// The contacts of a figure's soles with the ground: the guided paths of soles, the corners on which they bear, and the
+// resulting conditions on accelerations.
 #pragma once
 
 #include "generator/dynamics/contact_plan.h"
@@ -9,46 +9,45 @@
 
 namespace contort {
 
-// Leads soles as a plan says, all of them or, after release, none.
+// Guides soles along a plan: all of them or, after release, none.
 class FootContacts {
  public:
-  // No sole is led at first. The figure, the environment and the plan must outlive it.
+  // No sole is guided at first. The figure, the environment and the plan must outlive it.
   void begin(const DynamicFigure& figure, const Environment& environment, const ContactPlan& plan, double rate_hz,
              double tick_s);
 
-  // The plan's frame from now on.
+  // Sets the present frame of the plan.
   void begin_frame(int frame);
 
   std::uint8_t planned(int frame) const { return stances_[static_cast<std::size_t>(frame)]; }
   bool has_soles() const { return !figure_->soles.empty(); }
   int sole_count() const { return static_cast<int>(figure_->soles.size()); }
   bool is_led() const { return is_led_; }
-  // Whether all soles stand flat in the plan, now and for a quarter of a second: then the root goes where the legs say,
-  // otherwise the legs go where the root and the soles say.
+  // Returns true if all soles stand flat in the plan, now and for a quarter of a second. Then the legs determine the
+  // root; otherwise the root and the soles determine the legs.
   bool is_planted() const { return planted_[static_cast<std::size_t>(frame_)] != 0; }
 
-  // Leads all soles from here on, along the plan's ways. Needs a placed pose.
+  // Guides all soles from here on, along the plan's paths. Needs a placed pose.
   void lead_all() { is_led_ = has_soles(); }
-  // Sets the ways of the soles at a time in frames, and the corners on which they bear. Corners that are still above
-  // the ground bear later. Needs a placed pose.
+  // Sets the guided places of the soles at a time in frames, and the corners on which they bear. Corners that are still
+  // above the ground bear later. Needs a placed pose.
   void follow_plan(double frame, const DynamicsScratch& dynamics);
 
-  // Leads the soles again, beginning with planned ones that lie flat and still, from where these are; answers whether
-  // there is any. Needs find_bias.
+  // Guides the soles again, beginning with planned ones that lie flat and still, from their present places. Returns
+  // true if there is any. Needs find_bias.
   bool land_flat(double frame, const DynamicsScratch& dynamics);
 
   void release();
 
-  // By how much the place of a standing sole differs from the plan's: mean, m, horizontally.
+  // The mean horizontal distance of standing soles from the plan's places, m.
   Vec3 shift_m() const;
 
-  // Finds what led soles ask, with the equation's bias.
+  // Finds the conditions of guided soles, with the equation's bias.
   void find_rows(EquationOfMotion& equation);
-  // The sole in the air whose leg has this freedom, -1 where it is another one's; and a smaller share of what that sole
-  // asks beyond a leg whose joints do not accelerate, against these accelerations of the others.
+  // The sole in the air whose leg has this degree of freedom; -1 for others.
   int swinging(int dof) const;
   void ask_less(int sole, double share, std::span<const double> acceleration);
-  // With the rows: the nearest accelerations that lead the soles.
+  // With the rows: the nearest accelerations that guide the soles.
   void keep(std::span<double> acceleration) { project_on_support(ease_, support_, acceleration); }
   // With the rows: stops all soles by impulses of the ground. Needs find_mass and find_factors.
   void stop(EquationOfMotion& equation);
@@ -56,7 +55,8 @@ class FootContacts {
   const Feet& feet() const { return feet_; }
   SupportRows& support() { return support_; }
   std::span<const double> ease() const { return ease_; }
-  std::span<const char> led_by_dof() const { return led_by_dof_; }  // by freedom: whether it is of a led leg
+  // By degree of freedom: true if it belongs to a guided leg.
+  std::span<const char> led_by_dof() const { return led_by_dof_; }
   std::span<const double> firmness() const { return firmness_; }    // by sole, squared: firmness in feet.h
 
  private:
@@ -76,14 +76,14 @@ class FootContacts {
   Feet feet_;
   std::vector<std::uint8_t> stances_;  // by frame
   std::vector<char> planted_;          // by frame
-  std::vector<Rigid> offsets_;         // by sole: from the plan's places to those of this figure
+  std::vector<Rigid> offsets_;         // by sole: transform from the plan's places to those of this figure
   std::vector<LedSole> led_;
-  std::vector<double> passive_, moved_;  // memory of ask_less
+  std::vector<double> passive_, moved_;  // scratch of ask_less
   SupportRows support_;
   ResponseScratch response_;
-  std::vector<double> change_;  // memory of stop
+  std::vector<double> change_;  // scratch of stop
   std::vector<double> firmness_;
-  std::vector<double> ease_;  // by freedom: how easily it gives way (support.h)
+  std::vector<double> ease_;  // by degree of freedom: how easily it gives way (support.h)
   std::vector<char> led_by_dof_;
 };
 

@@ -36,38 +36,39 @@ struct SupportArea {
   std::vector<int> order;          // memory
 };
 
-// The support area of the soles that bear, at the placed pose. Where only one does, that on which its ankle is strong
-// enough for this force; 0 leaves strength aside.
+// The support area of the bearing soles, at the placed pose. If only one bears, the area is limited by the strength of
+// its ankle for this force; 0 ignores strength.
 void find_support_area(const DynamicFigure& figure, const Feet& feet, double alone_N, const DynamicsScratch& dynamics,
                        SupportArea& area);
 
 struct Balance {
   Vec3 zmp_m{0.0};        // on the horizontal plane through the corners' mean
-  double margin_m = 0.0;  // of the ZMP inside the area, < 0 outside; -infinity where the ground would have to pull
+  // Distance of the ZMP inside the area, < 0 outside; -infinity if the ground would have to pull.
+  double margin_m = 0.0;
 };
 
-// The balance of a figure that needs this force; a vertical one below a fifth of the weight counts as pulling.
+// The balance of a figure with this ground force. A vertical force below a fifth of the weight counts as pulling.
 Balance balance_of(const SupportArea& area, const DynamicsScratch& dynamics, std::span<const double> forces,
                    double weight_N);
 
-// The largest share in [0, 1] of the way from the forces of holding still to these at which the ZMP keeps a margin.
-// Edges beyond which even holding still would tip are left out: nothing is won there.
+// The largest fraction in [0, 1] of the way from the forces of holding still to these forces at which the ZMP keeps a
+// margin. Edges beyond which even holding still would tip are ignored, because nothing can be gained there.
 double balanced_share(const SupportArea& area, std::span<const double> hold, std::span<const double> forces,
                       double margin_m);
 
-// The division of a ground force among soles: the least sum of squared forces and, a hundred times dearer, and
-// more about the axis about which the ankle is weak, of squared
-// moments about the middles of where soles bear. Efforts of joints above the legs do not depend on it.
+// Divides a ground force among soles: minimises the sum of squared forces and of squared moments about the middles of
+// the bearing areas; moments weigh a hundred times more, and still more about the weak axis of the ankle. Efforts of
+// joints above the legs do not depend on the division.
 class GroundShare {
  public:
-  // `firmness` by sole of the figure: the cost of a sole's forces is divided by it.
+  // `firmness` is given by sole of the figure; the cost of a sole's forces is divided by it.
   void prepare(const DynamicFigure& figure, const Feet& feet, std::span<const double> firmness,
                const DynamicsScratch& dynamics);
 
-  // Joint efforts that belong to generalised forces: those less what soles transmit; 0 for the root.
+  // Joint efforts for generalised forces: these forces minus those that the soles transmit; 0 for the root.
   void efforts(const DynamicFigure& figure, const DynamicsScratch& dynamics, std::span<const double> forces,
                std::span<double> out) const;
-  // The same for one freedom. Where many are asked, the multipliers of these forces are found once for all.
+  // The same for one degree of freedom. The multipliers of these forces are cached for further calls.
   double effort(const DynamicsScratch& dynamics, std::span<const double> forces, int dof) const {
     return effort(dynamics, forces, multipliers(dynamics, forces), dof);
   }
@@ -75,7 +76,7 @@ class GroundShare {
                 int dof) const;
   SpatialForce multipliers(const DynamicsScratch& dynamics, std::span<const double> forces) const;
 
-  // One sole's share of a net force, about the root's origin; `standing` counts as in prepare.
+  // One sole's share of a net force, about the root's origin; `standing` is an index as in prepare.
   SpatialForce share(std::size_t standing, const SpatialForce& net) const {
     return share_of(standing, multipliers(net));
   }
@@ -88,13 +89,13 @@ class GroundShare {
     Mat3 moment_ease{0.0};
   };
   static Mat3 moment_ease(const Sole& sole, const DynamicsScratch& dynamics);
-  Vec3 middle_of(const Sole& sole, const Bearing& bearing);  // of where it bears, in its link's frame
+  Vec3 middle_of(const Sole& sole, const Bearing& bearing);  // middle of its bearing area, in its link's frame
   SpatialForce multipliers(const SpatialForce& net) const;
   SpatialForce share_of(std::size_t standing, const SpatialForce& multipliers) const;
   std::vector<Foot> feet_;
-  std::vector<Vec3> points_m_;  // memory
+  std::vector<Vec3> points_m_;  // scratch
   int dof_count_ = 0;
-  std::vector<char> moves_;  // feet x freedoms: whether it moves the sole
+  std::vector<char> moves_;  // feet x degrees of freedom: true if it moves the sole
   std::array<double, 36> factors_{};
 };
 

@@ -1,4 +1,4 @@
-// An impact on a figure: the change of all velocities in no time.
+// An impact on a figure: the instantaneous change of all velocities.
 #pragma once
 
 #include "generator/dynamics/contact_solver.h"
@@ -9,14 +9,13 @@ namespace contort {
 
 class ImpactResponse {
  public:
-  // Adds the change of velocities that an impact makes. Joints do not resist, but brace as far as one of them would be
-  // faster than it can be; soles on the ground push and rub as much as contacts can (contact_solver.h), and may be
-  // relieved of what the weight presses on them meanwhile. The equation must have been placed, with find_mass and
-  // find_factors.
+  // Adds the change of velocities due to an impact. Joints do not resist, but brace as far as one of them would exceed
+  // its greatest speed. Soles on the ground have contact forces and friction (contact_solver.h), and may be relieved of
+  // the weight that presses on them meanwhile. The equation must have been placed, with find_mass and find_factors.
   void strike(EquationOfMotion& equation, const FootContacts& contacts, const Environment& environment,
               const Impact& impact);
 
-  // After strike: the greatest speed of a point on which a sole bears, m/s.
+  // After strike: the greatest speed of a bearing point of a sole, m/s.
   double sole_speed_m_s() const { return sole_speed_m_s_; }
 
  private:
@@ -26,7 +25,7 @@ class ImpactResponse {
   void find_sole_speed(const EquationOfMotion& equation, const FootContacts& contacts);
 
   std::vector<double> change_;
-  std::vector<double> stiff_;  // with joints that do not move
+  std::vector<double> stiff_;  // with fixed joints
   std::vector<double> impulse_;
   std::vector<double> velocity_;
   std::vector<Vec3> points_m_;

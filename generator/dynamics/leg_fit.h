@@ -1,4 +1,4 @@
-// Whether the legs of a posture fit: within the ranges of their joints, and beside the other bodies.
+// Checks that the legs of a posture fit: within the ranges of their joints, and without touching other bodies.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,11 @@ class LegFit {
   // All must outlive this object.
   LegFit(const Character& character, const DynamicFigure& figure, std::span<const Leg> legs);
 
-  // Whether a hinge of a leg is beyond its range.
+  // Returns true if a hinge of a leg is beyond its range.
   bool overbend(std::span<const double> row) const;
 
-  // Whether one of these legs (bit i: leg i) overlaps another body. The scratch is placed anew if there is one.
+  // Returns true if one of these legs (bit i: leg i) overlaps another body. If there are legs, the scratch is placed
+  // anew.
   bool overlap(std::uint8_t legs, const Rigid& root, std::span<const double> row, DynamicsScratch& scratch);
 
  private:
@@ -26,7 +27,7 @@ class LegFit {
   const Multibody& body_;
   std::span<const Leg> legs_;
   BodyContacts bodies_;
-  std::vector<std::uint8_t> leg_of_;  // by link: bit i if it is of leg i
+  std::vector<std::uint8_t> leg_of_;  // by link: bit i if it belongs to leg i
 };
 
 }  // namespace contort

@@ -1,5 +1,5 @@
-// A figure that does not stand: it flies, tips over an edge of its feet, or lies. It moves by the laws of motion alone,
-// under what its joints can give. Corners and ends of its colliders touch the ground and obstacles (contact_solver.h).
+// A figure that does not stand: it flies, tips over an edge of its feet, or lies. Only the laws of motion and the
+// efforts of its joints move it. Corners and ends of its colliders touch the ground and obstacles (contact_solver.h).
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@
 
 namespace contort {
 
-// A place where a link can touch: a sphere of this radius around a point.
+// A place where a link can touch: a sphere with this radius around a point.
 struct TouchPoint {
   int link = 0;
   Vec3 point_m{0.0};  // in the link's frame
@@ -23,8 +23,8 @@ struct TouchPoint {
 // Corners of soles, and corners and ends of all other colliders.
 std::vector<TouchPoint> touch_points(const Character& character, const DynamicFigure& figure);
 
-// Root accelerations under no force but gravity, given those of the joints: overwrites the first six. `forces` are
-// those of inverse dynamics with the accelerations as they are, and are brought to 0 there; `mass` as in mass_matrix.
+// Computes the root's accelerations under gravity alone, given those of the joints: overwrites the first six. `forces`
+// are those of inverse dynamics with the present accelerations, and become 0 there; `mass` as in mass_matrix.
 void fall_freely(const Multibody& body, std::span<const double> mass, std::span<double> acceleration,
                  std::span<double> forces);
 
@@ -32,16 +32,16 @@ void fall_freely(const Multibody& body, std::span<const double> mass, std::span<
 SpatialForce momentum_of(const Multibody& body, const DynamicsScratch& dynamics, std::span<const double> mass,
                          std::span<const double> velocity);
 
-// Gives the root the velocity with which the figure has this momentum, whatever its joints do. In free motion nothing
-// else is integrated: an explicit step through a fast tumble would blow up, and momentum cannot. Needs the composites
-// of mass_matrix.
+// Gives the root the velocity with which the figure has this momentum, whatever its joints do. In free motion only the
+// momentum is integrated: an explicit step through a fast tumble would be unstable, but momentum cannot be. Needs the
+// composites of mass_matrix.
 void set_momentum(const Multibody& body, const DynamicsScratch& dynamics, std::span<const double> mass,
                   const SpatialForce& momentum, std::span<double> velocity);
 
-// The momentum that gravity adds in a second.
+// The change of momentum per second due to gravity.
 SpatialForce weight_of(const DynamicsScratch& dynamics);
 
-// Adds the touch points that could touch the ground or an obstacle within a tick. Needs a placed pose.
+// Adds the touch points that may touch the ground or an obstacle within a tick. Needs a placed pose.
 void add_touches(const DynamicFigure& figure, std::span<const TouchPoint> points, const Environment& environment,
                  double tick_s, std::span<const double> velocity, const DynamicsScratch& dynamics,
                  ContactSolver& solver);

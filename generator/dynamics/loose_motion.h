@@ -1,4 +1,4 @@
-// A figure that has let go of the ground: it flies, tips or lies until soles take its weight again (loose.h).
+// A figure without hold on the ground: it flies, tips or lies until soles carry its weight again (loose.h).
 #pragma once
 
 #include "generator/dynamics/body_contacts.h"
@@ -8,8 +8,8 @@
 
 namespace contort {
 
-// Whether the figure is loose, whether it has fallen, and its momentum from tick to tick. One that has fallen never
-// stands again: its joints go limp.
+// Knows if the figure is loose or has fallen, and its momentum from tick to tick. A fallen figure never stands again:
+// its joints go limp.
 class LooseMotion {
  public:
   void begin(double tick_s);
@@ -20,22 +20,21 @@ class LooseMotion {
   void let_go();
   void take_hold() { is_loose_ = false; }
 
-  // The velocities have been changed by something else, such as a blow.
+  // Call this when velocities were changed from outside, such as by a blow.
   void forget_momentum() { has_momentum_ = false; }
 
-  // Gives the state the momentum of the tick before, if there is one; needs find_mass.
+  // Gives the state the momentum of the previous tick, if there is one; needs find_mass.
   void carry_momentum(EquationOfMotion& equation);
 
-  // Joints go on as they are told, each as far as it is strong enough; the rest follows. Needs find_mass.
+  // Joints move as wanted, as far as each is strong enough; the root follows. Needs find_mass.
   void fall(EquationOfMotion& equation, std::span<const double> wanted, Actuation& actuation);
 
-  // Weight, contacts, those of bodies of the figure with each other, and the ends of joints change the velocities, and
-  // with them the momentum, and nothing else does.
-  // `before` is the momentum before joints changed their velocities.
+  // Changes the velocities, and with them the momentum, only by weight, contacts, contacts between bodies of the
+  // figure, and the ends of joints. `before` is the momentum before joints changed their velocities.
   void move(const Character& character, EquationOfMotion& equation, std::span<const TouchPoint> touches,
             std::span<const BodyContact> bodies, const Environment& environment, const SpatialForce& before);
 
-  // After move: what the figure touches, and how it stands against the target's root rotation.
+  // After move: the footing, from the figure's contacts and its tilt against the target's root rotation.
   Footing footing(const Quat& root, const Quat& wanted_root);
 
  private:

@@ -1,7 +1,6 @@
-// Joints that go faster than they can. Ticks are explicit steps: a figure whose joint turns by a radian or more in one
-// gains energy from nothing, and ends with numbers that are not finite. So no joint goes faster than twice its limit
-// (`fastest` by freedom, rad/s or m/s; the root's is not looked at), which is fast enough for `angular_velocity` to
-// find it.
+// Joints that exceed their greatest speed. Ticks are explicit steps: a figure whose joint turns by a radian or more in
+// one gains energy from nothing, and its values become infinite. So no joint exceeds twice its limit (`fastest` by
+// degree of freedom, rad/s or m/s; the root's is ignored), which is fast enough for `angular_velocity` to find it.
 #pragma once
 
 #include <span>
@@ -10,13 +9,13 @@
 
 namespace contort {
 
-inline constexpr double kRacing = 2.0;  // times its limit
+inline constexpr double kRacing = 2.0;  // multiple of the limit
 
-// Whether a tick with these accelerations would make a joint race.
+// Returns true if a tick with these accelerations would make a joint exceed that.
 bool races(const Multibody& body, std::span<const double> fastest, std::span<const double> velocity,
            std::span<const double> acceleration, double tick_s);
 
-// Bounds the velocities of joints, those of balls by their length.
+// Bounds the velocities of joints; for balls, the length of the angular velocity.
 void stop_racing(const Multibody& body, std::span<const double> fastest, std::span<double> velocity);
 
 }  // namespace contort

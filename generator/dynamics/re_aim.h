@@ -1,5 +1,5 @@
-// Aims of a target whose hips have been moved: hips that sway by a few centimetres take a point off its target by more
-// than an aim may miss it.
+// Aims of a target whose hips were moved: hips that sway by a few centimetres turn a point away from its target by more
+// than aims tolerate.
 #pragma once
 
 #include <span>
@@ -9,8 +9,9 @@
 
 namespace contort {
 
-// Turns the hinges of the parts that aim, in the frames of Motion::aims, so that they point at their targets again as far
-// as ranges allow, by a few degrees at most. Beside these frames the turns fade. Parts that carry legs stay as they are.
+// Turns the hinges of the aiming parts, in the frames of Motion::aims, so that they point at their targets again as far
+// as ranges allow, by a few degrees at most. Before and after these frames the turns fade. Parts that carry legs stay
+// unchanged.
 void re_aim(const Character& character, std::span<const Leg> legs, Motion& motion);
 
 }  // namespace contort

@@ -1,4 +1,4 @@
-// Records dynamics in a motion, frame by frame: of several ticks the greatest efforts and the worst balance.
+// Records dynamics in a motion, frame by frame: of several ticks it keeps the greatest efforts and the worst balance.
 #pragma once
 
 #include <span>
@@ -11,15 +11,15 @@ namespace contort {
 
 class Recorder {
  public:
-  // Keeps a reference to the motion, whose poses are the target until frames are overwritten.
+  // Keeps a reference to the motion. Its poses are the target until frames are overwritten.
   void begin(Motion& motion, int dof_count);
 
-  // The frame's pose, and which soles stand in the target (Stance::planned).
+  // Records the frame's pose, and the soles that stand in the target (Stance::planned).
   void begin_frame(int frame, const FigureState& state, std::uint8_t planned);
   void end_frame(std::span<const int> standing);
 
   void efforts(std::span<const double> efforts);
-  void control(std::span<const double> added, double share);  // a tick's share of the frame
+  void control(std::span<const double> added, double share);  // `share` is the tick's fraction of the frame
   void balance(const Balance& balance);
   void footing(Footing footing);
   void overpowered() { stance().overpowered = true; }
@@ -30,7 +30,7 @@ class Recorder {
   std::span<double> row(std::vector<double>& values) const;
   Motion* motion_ = nullptr;
   int frame_ = 0;
-  bool balanced_ = false;  // whether this frame has a margin
+  bool balanced_ = false;  // true if this frame has a margin
 };
 
 }  // namespace contort

@@ -15,21 +15,21 @@
 
 namespace contort {
 
-// All that does not change while it runs.
+// All constant data of a simulation.
 struct DynamicsSetup {
   Mode mode = Mode::kinematic;
   int ticks_per_frame = 1;
   DynamicFigure figure;
   std::vector<TouchPoint> touches;
   std::vector<Impact> impacts;
-  std::vector<double> easy;  // by joint: easy_accelerations
+  std::vector<double> easy;  // easy_accelerations, by joint
 };
 
-// Codes dynamics.unknown_name, .bad_load, with pointers from the description's root. `start` turns impulses.
+// Codes dynamics.unknown_name, .bad_load, with pointers from the description's root. `start` rotates impulses.
 Result<DynamicsSetup> build_dynamics(const DynamicsDesc& desc, const Character& character, std::span<const Leg> legs,
                                      double rate_hz, const Quat& start);
 
-// Memory, reused from call to call and setup to setup.
+// Scratch, reused from call to call and setup to setup.
 struct SimulationScratch {
   EquationOfMotion equation;
   FootContacts contacts;
@@ -38,14 +38,14 @@ struct SimulationScratch {
   BodyContacts bodies;
   ImpactResponse impact;
   Recorder record;
-  std::vector<double> tracked;          // accelerations that tracking wants, by freedom
-  Actuation actuation;                  // of this tick
-  std::vector<double> velocity_before;  // of a trial to take hold
-  std::function<void()> after_tick;     // for those who measure; mostly empty
+  std::vector<double> tracked;          // wanted accelerations of tracking, by degree of freedom
+  Actuation actuation;                  // actuation of this tick
+  std::vector<double> velocity_before;  // velocities before a trial to stand again
+  std::function<void()> after_tick;     // for measurements; mostly empty
 };
 
-// Moves `motion`, which is the target, as a figure with mass would: its poses become the figure's, its response tells
-// what happened. Cannot fail.
+// Replaces `motion`, which is the target, by the motion of a figure with mass: its poses become the figure's, and its
+// response records the events. Cannot fail.
 void simulate(const Character& character, const DynamicsSetup& setup, const Environment& environment,
               SimulationScratch& scratch, Motion& motion);
 

@@ -1,5 +1,5 @@
-// Takes the jolts out of a target's joints. A limb that is kept clear of a body, or cut, stops within a frame; with
-// mass it needs longer. There the motion is replaced by its mean over time, as wide as joints need it.
+// Removes the jolts from a target's joints. A limb that is kept clear of a body, or cut, stops within a frame, but with
+// mass it needs longer. There the motion is replaced by its mean over time, as wide as the joints need.
 #pragma once
 
 #include <span>
@@ -10,12 +10,13 @@
 
 namespace contort {
 
-// Changes joints that are of no leg; all by the same weights, so that hands stay at what they hold as nearly as they
-// can. `easy`: easy_accelerations. A motion without jolts stays as it is, bit by bit. Answers whether it has changed.
+// Changes joints outside of legs, all with the same weights, so that hands stay at their objects as nearly as possible.
+// `easy`: easy_accelerations. A motion without jolts stays unchanged, bit by bit. Returns true if the motion has
+// changed.
 bool soften_joints(const Character& character, std::span<const Leg> legs, std::span<const double> easy,
                    Motion& motion);
 
-// Changes legs that are lifted, or come down, while all that carries them rests. Gaits have their own ways of feet.
+// Changes legs that are lifted, or land, while all their carriers rest. Gaits have their own paths of feet.
 void soften_legs(const Character& character, std::span<const Leg> legs, const Environment& environment,
                  std::span<const double> easy, Motion& motion);
 

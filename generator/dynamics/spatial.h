@@ -6,11 +6,11 @@
 
 namespace contort {
 
-// A vector with a fourth number, so that an instruction on four reads and writes it whole. That number is finite and
-// nobody's business.
+// A vector with a fourth number, so that one instruction on four numbers reads and writes it. That number is finite and
+// unused.
 struct alignas(32) WideVec3 : Vec3 {
   WideVec3(const Vec3& v = Vec3(0.0)) : Vec3(v) {}
-  const Vec3& narrow() const { return *this; }  // for templates that would deduce this type
+  const Vec3& narrow() const { return *this; }  // for templates that must deduce this type
   double fourth = 0.0;
 };
 
@@ -60,7 +60,7 @@ inline SpatialForce& operator+=(SpatialForce& a, const SpatialForce& b) {
   return a;
 }
 
-// The force that moves a body so: I a + v x* I v, by the shorter way of the acceleration of its point at the origin.
+// The force for this motion of a body: I a + v x* I v, computed from the acceleration of its point at the origin.
 inline SpatialForce force_of(const SpatialInertia& i, const SpatialMotion& v, const SpatialMotion& a) {
   const Vec3 origin_m_s2 = a.linear + glm::cross(v.angular, v.linear);
   return {
@@ -69,7 +69,7 @@ inline SpatialForce force_of(const SpatialInertia& i, const SpatialMotion& v, co
           glm::cross(v.angular, glm::cross(v.angular, i.first_moment))};
 }
 
-// The power of a force on a body that moves so, W.
+// The power of a force on a body with this motion, W.
 inline double dot(const SpatialMotion& m, const SpatialForce& f) {
   return glm::dot(m.angular.narrow(), f.moment.narrow()) + glm::dot(m.linear.narrow(), f.force.narrow());
 }

@@ -1,5 +1,5 @@
-// A figure on its soles: dynamic control, and a return towards holding still where joints or the ground cannot give
-// what the target would take.
+// A figure on its soles: dynamic control, and a return towards holding still if joints or the ground cannot supply the
+// forces for the target.
 #pragma once
 
 #include "generator/dynamics/control.h"
@@ -17,28 +17,29 @@ class Standing {
   // The plan must outlive it.
   void begin(const DynamicFigure& figure, const BalancePlan& plan, double tick_s);
 
-  // The time of a tick in frames, and whether anything acts on the figure from outside: dynamic control waits for that.
+  // Sets the time of a tick in frames. `is_disturbed` is true if a force acts from outside; dynamic control is inactive
+  // without one.
   void begin_tick(double frame, bool is_disturbed) { frame_ = frame, is_disturbed_ = is_disturbed; }
 
-  // Control forgets what it was doing, because the velocities have changed at once.
+  // Resets control, because the velocities have changed at once.
   void rest() { control_.rest(); }
 
   // The figure has let go of the ground.
   void let_go();
 
-  // The support area at the placed pose, and the efforts that belong to the actuation's forces.
+  // Finds the support area at the placed pose, and the efforts for the actuation's forces.
   void find_ground(const EquationOfMotion& equation, const FootContacts& contacts, Actuation& actuation);
   Balance balance(const EquationOfMotion& equation, std::span<const double> forces) const;
 
-  // From the wanted accelerations to those with which the figure stands, their forces and efforts; needs find_mass.
-  // Answers whether the ground can hold the figure: its zero moment point neither is far outside nor stays outside.
+  // Changes the wanted accelerations so that the figure stands, with their forces and efforts; needs find_mass. Returns
+  // true if the ground can hold the figure: its zero moment point neither is far outside nor stays outside.
   bool stand(EquationOfMotion& equation, FootContacts& contacts, std::span<const double> wanted, Recorder& record,
              Actuation& actuation);
 
-  // Whether the figure would stay above the standing soles: its capture point is there. Needs find_mass.
+  // Returns true if the figure could stand on the soles: its capture point is above them. Needs find_mass.
   bool could_stand(const EquationOfMotion& equation, const FootContacts& contacts);
 
-  // The accelerations that control added in the last tick, by freedom.
+  // The accelerations that control added in the last tick, by degree of freedom.
   std::span<const double> added() const { return control_.added(); }
 
  private:
@@ -62,21 +63,21 @@ class Standing {
   bool is_disturbed_ = false;
   Steering steering_;
   GroundControl ground_control_;
-  std::vector<GroundRow> rows_;  // of this tick
-  Vec3 zmp_m_{0.0};              // that they ask for
+  std::vector<GroundRow> rows_;  // rows of this tick
+  Vec3 zmp_m_{0.0};              // zero moment point of the rows
   bool has_zmp_ = false;
-  int asked_ = 0;  // attempts of this tick that asked less of feet in the air
+  int asked_ = 0;  // number of attempts in this tick that demanded less of feet in the air
   std::vector<Spared> spared_;
-  Actuation base_;               // memory
-  std::vector<Vec3> corners_m_;  // memory
+  Actuation base_;               // scratch
+  std::vector<Vec3> corners_m_;  // scratch
   HullScratch hull_;
   std::vector<double> zeros_;
-  std::vector<double> ease_;  // of this tick
-  double outside_s_ = 0.0;    // how long the zero moment point has been outside
+  std::vector<double> ease_;  // ease in this tick
+  double outside_s_ = 0.0;    // time for which the zero moment point has been outside
   SupportArea area_;
   GroundShare ground_;
   DynamicControl control_;
-  Actuation hold_;  // of holding still
+  Actuation hold_;  // actuation for holding still
   ResponseScratch response_;
 };
 

@@ -1,7 +1,8 @@
-// Finds the point where the ground's force should act so that a figure's centre of mass goes where its target's goes.
-// The capture point c + c' / w, w = sqrt(g / h), runs away from the zero moment point at the rate w; put behind it by
-// more than the target's is, the point is led back (J. Pratt et al., "Capture point", Humanoids 2006; J. Englsberger et
-// al., "Three-dimensional bipedal walking control based on divergent component of motion", 2015).
+// Finds the point at which the ground's force must act so that a figure's centre of mass follows its target's. The
+// capture point c + c' / w, w = sqrt(g / h), moves away from the zero moment point at the rate w. If the zero moment
+// point is farther behind it than in the target, the capture point is led back (J. Pratt et al., "Capture point",
+// Humanoids 2006; J. Englsberger et al., "Three-dimensional bipedal walking control based on divergent component of
+// motion", 2015).
 #pragma once
 
 #include "generator/dynamics/equation_of_motion.h"
@@ -21,7 +22,7 @@ class Steering {
   // The figure's capture point, at the height of its centre of mass. Needs find_mass.
   Vec3 capture_m(double frame, const EquationOfMotion& equation) const;
 
-  // By how much the capture point is ahead of the target's, m, horizontally.
+  // The horizontal vector from the target's capture point to the figure's, m.
   Vec3 ahead_m(double frame, const Vec3& shift_m, const EquationOfMotion& equation) const;
 
  private:

@@ -1,4 +1,4 @@
-// A figure that follows a target: its state, and the accelerations that tracking control asks for.
+// A figure that follows a target: its state, and the wanted accelerations of tracking control.
 #pragma once
 
 #include <span>
@@ -14,34 +14,34 @@ struct FigureState {
   std::vector<double> velocity;  // see Multibody
 };
 
-// The target's pose at frame 0, and its rates half a tick before, as a figure has them that advance() brought there.
+// The target's pose at frame 0, and its rates half a tick before, as for a figure that advance() has moved there.
 FigureState moving_start(const Multibody& body, const TargetMotion& target, double tick_s = 0.0);
 
 struct Tracking {
   bool root_leads =
-      false;  // the root follows its own way closely and legs come along; else it is tracked as joints are
+      false;  // the root follows its own path closely, and legs follow it; otherwise it is tracked like joints
   bool returns_softly = false;  // after a blow: no faster than the ground can bear
-  bool exactly = false;         // joints: with what the cubics miss of the target, so that a figure on it stays on it
+  bool exactly = false;  // joints: with a correction of the cubics, so that a figure on the target stays on it exactly
 };
 
-// A joint of the target where a figure is that takes the target's accelerations tick by tick.
+// A joint of the target as a figure reaches it that applies the target's accelerations tick by tick.
 struct TargetLead {
   double frame = -1.0;
   double coords[4]{};
   Vec3 acceleration{0.0};
 };
 
-// What the last tick found, by joint and three travels of the root: spares half of the work in the next one.
+// Results of the last tick, by joint and three travels of the root. They save half of the work in the next one.
 struct TrackScratch {
   std::vector<TargetLead> leads;
 };
 
-// The accelerations of all freedoms at a time in frames, each joint by itself; tick_s is the time until the next call.
-// The scratch is of the same target.
+// The accelerations of all degrees of freedom at a time in frames, each joint separately; tick_s is the time until the
+// next call. The scratch must belong to the same target.
 void track(const Multibody& body, const TargetMotion& target, double frame, double tick_s, const Tracking& how,
            const FigureState& state, TrackScratch& scratch, std::span<double> acceleration);
 
-// Semi-implicit Euler: velocities first, then poses with them.
+// Semi-implicit Euler: advances velocities first, then poses with the new velocities.
 void advance(const Multibody& body, std::span<const double> acceleration, double tick_s, FigureState& state);
 
 }  // namespace contort

@@ -23,7 +23,7 @@ struct AimChain {
 // does not carry the socket. Of more than kMaxAimJoints joints the outermost ones are kept.
 AimChain aim_chain_for(const Character& character, int part, int socket);
 
-// Returns the chain with which a torso or head faces a direction, cut in the same way.
+// Returns the chain with which a torso or head faces a direction, cut to the same length.
 AimChain aim_chain_for(const FacingChain& chain);
 
 // A chain without its character: everything on which an aim table depends. Two arms with equal geometry share a table.

@@ -15,12 +15,12 @@ class AimTables {
  public:
   explicit AimTables(const AimTableOptions& options = {}) : options_(options) {}
 
-  // Looks for files of tables there first. A file that does not fit, because its character has changed or because it is
-  // damaged, is as good as none.
+  // Searches this folder for files of tables first. A file that does not fit, because its character has changed or
+  // because it is damaged, is ignored.
   void read_from(const std::string& folder);
 
-  // The chain's table; stays alive as long as anyone holds it. Safe from any thread. Two threads that ask first may
-  // both build it: the tables are equal, and one of them is kept.
+  // The chain's table; it stays alive as long as a caller holds it. Safe from any thread. Two threads that request it
+  // first may both build it: the tables are equal, and one of them is kept.
   std::shared_ptr<const AimTable> get(const Character& character, const AimChain& chain);
 
  private:

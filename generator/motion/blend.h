@@ -13,7 +13,7 @@ void copy_part(const Character& character, std::size_t part, const Posture& from
 void blend_part(const Character& character, std::size_t part, const Posture& a, const Posture& b, double weight,
                 Posture& out);
 
-// out = where the part gets to if it goes on from b for so many of the steps that led it from a to b; out may be a or b.
+// out = the part continues from b for this many of the steps that led it from a to b; out may be a or b.
 void coast_part(const Character& character, std::size_t part, const Posture& a, const Posture& b, double steps,
                 Posture& out);
 

@@ -28,17 +28,17 @@ class Clearance {
 
   enum class Kept { as_wanted, foot_lifted, elsewhere };
 
-  // The room that the limb would have had where it was wanted, of the last call of keep().
+  // The room that the limb would have had at its wanted place, in the last call of keep().
   double wanted_room_m() const { return wanted_m_; }
 
-  // `shown` holds where the joints of the part's limb are to go, and then where they go. A foot that stands is lifted.
-  // `world` holds the transforms of all joints; those of the limb and of what it carries are brought up to date. Joints
-  // get out of the way at a third of their greatest speed. A limb whose foot was lifted in the frame before comes back slowly enough to stop: its knee, which ends straight, is
-  // fastest at the end.
+  // `shown` has the wanted posture of the part's limb, and then the one that is reached. A foot that stands is lifted.
+  // `world` holds the transforms of all joints; those of the limb and of the parts that it carries are updated. Joints
+  // give way at a third of their greatest speed. A limb whose foot was lifted in the previous frame returns slowly
+  // enough to stop: its knee, which ends straight, is fastest at the end.
   Kept keep(std::size_t part, const Past& past, bool was_lifted, Posture& shown, std::span<Rigid> world);
 
  private:
-  struct Case;  // one call
+  struct Case;  // data of one call
 
   const Character* character_ = nullptr;
   LimbRoom* room_ = nullptr;

@@ -22,8 +22,8 @@ struct RollTimes {
 double heel_rise(const RollTimes& times, double duty, double stance, double swing);
 double toe_rise(const RollTimes& times, double stance, double swing);
 
-// From the sole that lies flat to the one that rolls: the heel is raised about the footprint's front end, the toes
-// about its rear end. No point of the sole is lower for it. Angles >= 0.
+// Converts the place of a flat sole to that of a rolling one: the heel is raised about the footprint's front end, the
+// toes about its rear end. No point of the sole becomes lower. Angles >= 0.
 Rigid rolled_sole(const Leg& leg, double heel_up_rad, double toes_up_rad);
 
 // The point on which a sole stands, in its own frame: the middle of its lower end, or its origin where it lies flat.

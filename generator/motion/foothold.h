@@ -13,7 +13,7 @@ inline constexpr int kAcross = 3;
 inline constexpr int kLong = 7;
 Vec3 footprint_point(const Leg& leg, int across, int lengthwise);
 
-// The ground under a footprint, as a plane h + x·a + z·b in the sole's frame that nothing sticks out of.
+// The ground under a footprint, as a plane h + x·a + z·b in the sole's frame with no point of the ground above it.
 struct Foothold {
   double height_m = 0.0;
   double slope_x = 0.0;  // at most as steep as kSteepestSole_rad

@@ -20,7 +20,7 @@ struct FootTarget {
   bool stands = true;
 };
 
-// The turn of an arm away from hanging down.
+// The rotation of an arm from hanging down.
 struct ArmSwing {
   double forward_rad = 0.0;
   double out_rad = 0.0;

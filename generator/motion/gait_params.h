@@ -14,7 +14,7 @@ struct GaitParams {
   double turn_rad = 0.0;     // turn of the body while it starts
   double turn_of_cycle_rad = 40.0 * kRadPerDeg;  // > 0: greatest turn of the body in a cycle
   double cycle_s = 1.0;      // > 0, between two steps of one foot
-  double duty = 0.6;         // (0, 1): the share of the cycle in which a foot stands
+  double duty = 0.6;         // (0, 1): the fraction of the cycle in which a foot stands
   double under = 0.5;        // (0, 1): the fraction of the stance after which the hips are over the foot
   int lead = 0;              // the side that stands when it begins: 0 left, 1 right
   bool trot = false;         // run: legs cross-wise together; else rows one after another

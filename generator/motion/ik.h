@@ -1,5 +1,5 @@
-// Inverse kinematics. Nothing here clamps to joint ranges: a rule says what it wants, and a clamp would hide exactly
-// the fault that the checks look for.
+// Inverse kinematics. Nothing here clamps to joint ranges, because a clamp would hide exactly the fault that the checks
+// look for.
 #pragma once
 
 #include <array>
@@ -26,8 +26,8 @@ void face_direction(const Character& character, const FacingChain& chain, std::s
 void turn_axis_to(const Character& character, std::span<const int> joints, int socket, const Vec3& socket_axis,
                   std::span<Rigid> world, const Vec3& direction_world, std::span<double> row);
 
-// The two angles in [-pi, pi) with x cos(angle) + y sin(angle) = wanted, or, where there are none, nearest to it: what a
-// hinge must turn for a point or direction to have a wanted component. 0, 0 where no turn changes anything.
+// The two angles in [-pi, pi) with x cos(angle) + y sin(angle) = wanted, or, if there are none, nearest to it: the
+// rotation of a hinge for which a point or direction has a wanted component. 0, 0 if no rotation has an effect.
 std::array<double, 2> solve_turn(double x, double y, double wanted);
 
 // Two successive hinges, the second at rotation `between` in the first one's frame when that one is at rest.
@@ -38,7 +38,7 @@ struct HingePair {
 };
 
 // The two angles that turn `axis` (unit, in the second hinge's frame) to a direction in the frame in front of the first
-// hinge; of the two solutions the one with the smaller second angle. Where no angles do, the nearest.
+// hinge; of the two solutions the one with the smaller second angle. If there is no solution, the nearest angles.
 std::array<double, 2> hinge_pair_angles(const HingePair& pair, const Vec3& axis, const Vec3& direction);
 
 }  // namespace contort

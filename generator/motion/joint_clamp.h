@@ -9,9 +9,9 @@
 
 namespace contort {
 
-// A ball's rotation in its limit frame: swing_center * swing * twist. The swing's rotation vector lies across the twist
-// axis; a and b are its components about swing_axis and about axis x swing_axis (Grassia, "Practical Parameterization
-// of Rotations Using the Exponential Map", 1998).
+// A ball's rotation in its limit frame: swing_center * swing * twist. The swing's rotation vector is at a right angle
+// to the twist axis; a and b are its components about swing_axis and about axis x swing_axis (Grassia, "Practical
+// Parameterization of Rotations Using the Exponential Map", 1998).
 struct SwingTwist {
   double a_rad = 0.0;
   double b_rad = 0.0;
@@ -22,10 +22,10 @@ struct SwingTwist {
 SwingTwist swing_twist_of(const Joint& ball, const double* coords);
 void set_swing_twist(const Joint& ball, const SwingTwist& at, double* coords);
 
-// Moves the joint's coordinates into its range, and leaves them as they are, bit by bit, where they are inside. Hinges
-// and travels go to the nearer end, exactly; a ball's swing goes straight back to its ellipse and its twist to the end
-// that is nearer on the circle, both 1e-9 rad inside, because a quaternion cannot hold an angle exactly. NaN goes to
-// the middle of the range.
+// Moves the joint's coordinates into its range, and leaves them unchanged, bit by bit, if they are inside. Hinges and
+// travels go to the nearer end, exactly; a ball's swing goes straight back to its ellipse and its twist to the end that
+// is nearer on the circle, both 1e-9 rad inside, because a quaternion cannot hold an angle exactly. NaN goes to the
+// middle of the range.
 void clamp_to_range(const Joint& joint, double* coords);
 
 // Returns true if the joint is in its range, or at most 1e-10 rad or m outside. `row` is a whole posture.

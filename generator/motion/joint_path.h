@@ -14,21 +14,21 @@ namespace contort {
 // the character's. Memory is reused.
 class JointPath {
  public:
-  // Every joint is at rest. The character must outlive this object.
-  // `easy`: the greatest acceleration of each joint, rad/s^2 or m/s^2, beside what its greatest speed says; or empty.
+  // Begins with every joint at rest. The character must outlive this object. `easy`: the greatest acceleration of each
+  // joint, rad/s^2 or m/s^2, in addition to the limit by its greatest speed; or empty.
   void begin(const Character& character, std::span<const double> coords, double rate_hz,
              std::span<const double> easy = {});
 
-  // `coords` hold the wanted posture, and afterwards the one that the joints reach in this frame. Returns true if a
-  // joint is still on its way.
+  // `coords` has the wanted posture, and afterwards the one that the joints reach in this frame. Returns true if a
+  // joint has not arrived yet.
   bool follow(std::size_t part, std::span<double> coords);
 
   // The part has its wanted posture, and continues at its present speed, up to the greatest allowed one.
   void pass(std::size_t part, std::span<const double> coords);
 
-  // After follow(): the part went elsewhere, as these coordinates say, and is behind.
+  // After follow(): the part went elsewhere, to these coordinates, and has not arrived.
   void correct(std::size_t part, std::span<const double> coords);
-  // After follow(): the part was elsewhere in the frame before, too, so its joints have the speeds that were seen.
+  // After follow(): the part was elsewhere in the previous frame too, so its joints have the observed speeds.
   void correct(std::size_t part, std::span<const double> shown_before, std::span<const double> coords);
 
   // The part jumps to its wanted posture, and is at rest there.
@@ -40,7 +40,7 @@ class JointPath {
   struct State {
     Vec3 speed{0.0};
     bool is_behind = false;
-    bool is_corrected = false;  // it may have more speed than at ease
+    bool is_corrected = false;  // it may have more than its comfortable speed
   };
 
   struct Limits;
@@ -51,9 +51,9 @@ class JointPath {
 
   const Character* character_ = nullptr;
   double frame_s_ = 0.0;
-  std::vector<double> most_change_;  // by joint, per frame; empty: as the greatest speed says
-  std::vector<double> now_;     // coordinates, in the frame before
-  std::vector<double> wanted_;  // in the frame before
+  std::vector<double> most_change_;  // by joint, per frame; empty: by the greatest speed
+  std::vector<double> now_;     // coordinates in the previous frame
+  std::vector<double> wanted_;  // wanted coordinates in the previous frame
   std::vector<State> joints_;
 };
 

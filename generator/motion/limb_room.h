@@ -40,7 +40,7 @@ struct RoomRange {
                        // than a comfortable gap
 };
 
-// The hand, by the joint that it and all beyond it hang on, and the body of the object; -1: nothing is held.
+// A hand, given by the joint that carries it and everything beyond, and the body of the object; -1: nothing is held.
 struct HeldObject {
   int joint = -1;
   int body = -1;
@@ -49,7 +49,7 @@ struct HeldObject {
 
 class LimbRoom {
  public:
-  // Measures the figure at rest: bodies may be as near as they are there. Everything that is given must outlive this
+  // Measures the figure at rest: bodies may always be as near as they are at rest. All arguments must outlive this
   // object. Measures nothing if the character is the same as before.
   void begin(const Character& character, const Environment& environment, const StandingFeet& feet);
 
@@ -57,8 +57,8 @@ class LimbRoom {
   std::span<const Limb> limbs() const { return limbs_; }
   const Limb& limb_of(std::size_t part) const { return limbs_[static_cast<std::size_t>(limb_of_[part])]; }
 
-  // The transforms of all joints before a frame moves any but the root. Limbs of the same kind see each other there, or
-  // the left arm would choose otherwise than the right one, which is placed after it.
+  // The transforms of all joints before a frame moves any joint but the root. Limbs of the same kind are measured
+  // against these; otherwise the left arm would choose differently from the right one, which is placed after it.
   void begin_frame(std::span<const Rigid> world) { before_.assign(world.begin(), world.end()); }
 
   // Sets the object that the limb of this part holds with a hand, whose bodies may touch it. It stays set until the
@@ -68,10 +68,10 @@ class LimbRoom {
   // Returns true if a hand is within 2 mm of an object, or in it.
   bool is_at(const HeldObject& held, std::size_t part, std::span<const Rigid> world);
 
-  // The least distance of the bodies of this part's limb, and of what it carries, from others, from each other and from
-  // the ground and obstacles, beyond what they must have, and of what its feet have to spare, m; negative where they are
-  // too near. `world` holds the transforms of all joints; of parts that have not moved yet in this frame those of the
-  // frame before. Not for the root part.
+  // The least distance of the bodies of this part's limb, and of the parts that it carries, from others, from each
+  // other and from the ground and obstacles, beyond the gaps that they must have, and of the spare height of its feet,
+  // m; negative if they are too near. `world` holds the transforms of all joints; for parts that have not moved yet in
+  // this frame, those of the previous frame. Not for the root part.
   double room_m(std::size_t part, std::span<const Rigid> world, const RoomRange& range = {});
   // As room_m(), but only between bodies of the figure, without the ground, obstacles and feet.
   double apart_m(std::size_t part, std::span<const Rigid> world, const RoomRange& range = {});
@@ -95,7 +95,7 @@ class LimbRoom {
   // Two bodies whose distance a limb changes.
   struct Pair {
     JudgedPair bodies;
-    double radii_m = 0.0;  // sum of the radii of the balls that hold them
+    double radii_m = 0.0;  // sum of the radii of their bounding balls
     double safe_m = 0.0;   // the gap that they must have
 
     double band_below(double room_m) const;
@@ -128,21 +128,21 @@ class LimbRoom {
   const StandingFeet* feet_ = nullptr;
   std::uint64_t character_hash_ = 0;
   std::vector<Limb> limbs_;
-  std::vector<int> limb_of_;              // by part; -1 of the root part
+  std::vector<int> limb_of_;              // by part; -1 for the root part
   std::vector<Rigid> before_;             // by joint
   std::vector<std::vector<Pair>> pairs_;  // by limb
-  std::vector<char> swings_;              // by limb: it is an arm that swings with a gait
+  std::vector<char> swings_;              // by limb: true for an arm that swings with a gait
   std::vector<HeldObject> held_;          // by limb
-  std::vector<std::vector<int>> bodies_;  // by limb: its own and those that it carries, but those of legs
+  std::vector<std::vector<int>> bodies_;  // by limb: its own bodies and those that it carries, without those of legs
   std::vector<double> safe_over_ground_m_;  // by body
   std::vector<std::vector<Vec3>> core_m_;  // by collider: the points that span its core, in its joint's frame
   std::vector<Solid> own_;                // colliders in their joints' frames
   std::vector<Solid> world_;              // placed
-  std::vector<Vec3> ball_center_m_;       // by body: of a ball that holds it, in its joint's frame
+  std::vector<Vec3> ball_center_m_;       // by body: centre of its bounding ball, in its joint's frame
   std::vector<double> ball_radius_m_;
-  std::vector<int> limb_of_body_;  // by body; -1 of the root part's
+  std::vector<int> limb_of_body_;  // by body; -1 for the root part's
   std::vector<int> kind_;          // by limb: the first limb whose part is of the same kind
-  std::vector<Vec3> ways_;         // by judged collider: a direction along which they were apart, or 0
+  std::vector<Vec3> ways_;         // by judged collider: a direction along which they were separated, or 0
   // The places of the bodies in the present measurement.
   std::vector<Rigid> placed_at_;
   std::vector<Vec3> ball_world_m_;

@@ -6,7 +6,7 @@
 
 namespace contort {
 
-// A course that is tried before it is made.
+// A course that is tried before it is used.
 struct CourseTrial {
   FunctionRef<GaitFrame(Gait&, const Pace& pace, double time_s)> frame_at;  // times are of the course's content
   double lasts_s = 0.0;                                                // length of the course, s of content
@@ -17,9 +17,9 @@ struct CourseTrial {
   double even_for_s = 0.0;  // length of that half cycle; 0 if the course has none
 };
 
-// Tries a few fractions of the requested speed, and returns the greatest at which a course that begins as `begun` keeps
-// to what joints and bodies allow; a speed of 0 if it does at none of them. A course that is far from those limits in
-// half a cycle of its even part is taken without a trial of the rest. The other arguments are as for deepest_bend().
+// Tries a few fractions of the requested speed, and returns the greatest at which a course that begins as `begun` stays
+// within the limits of joints and bodies; a speed of 0 if none does. A course that is far from those limits in half a
+// cycle of its even part is accepted without a trial of the rest. The other arguments are as for deepest_bend().
 Pace fitting_pace(const Character& character, LimbRoom& room, const Gait& begun, const CourseTrial& course,
                     std::span<const Rigid> world, const TrialSpace& scratch, std::span<double> row);
 

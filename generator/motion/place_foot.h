@@ -1,4 +1,4 @@
-// Puts feet where a course wants them.
+// Puts feet at the places of a course.
 #pragma once
 
 #include <span>

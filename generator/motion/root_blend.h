@@ -16,8 +16,8 @@ struct LegsBelow {
 };
 
 // Blends from a at weight 0 to b at weight 1: place and rotation as blend_part does, but the height so that knees turn
-// evenly. A height that blends linearly up to straight legs turns them ever faster. Two bones of one length and a knee
-// of angle k reach cos(k/2) of their length.
+// evenly. A height that blends linearly up to straight legs turns them ever faster: two bones of one length with a knee
+// angle k reach cos(k/2) of their length.
 Rigid blend_root(const LegsBelow& below, const Rigid& a, const Rigid& b, double weight);
 
 // Returns the root of a posture that is moved from one place to another, at the same height over the ground.

@@ -15,8 +15,8 @@ struct Stood {
   bool fits = false;  // the sole is in its place, and all joints of leg and foot are in their ranges
 };
 
-// As place_foot, for a sole that lies flat. Where leg and ankle do not bend as far as that asks, the heel rises about the
-// toes, as little as it must; where no rise helps, the sole stays flat.
+// Like place_foot, for a sole that lies flat. If leg and ankle do not bend far enough, the heel rises about the toes,
+// as little as necessary; if that does not help, the sole stays flat.
 Stood stand_on(const Character& character, const Leg& leg, std::span<Rigid> world, const Rigid& world_from_sole,
                std::span<double> row);
 
@@ -28,21 +28,21 @@ struct Bend {
                                             // 1 is an even movement
 };
 
-// Memory for trials, as long as a character's joints and coordinates.
+// Scratch for trials, as long as a character's joints and coordinates.
 struct TrialSpace {
   std::span<Rigid> world;
   std::span<double> row;
 };
 
-// Puts the character into a frame: all joints go along with the root, and feet are placed below it. `world` is its
-// placement in the frame before, `scratch` its new one; coordinates of legs and feet in `row` are scratch. Returns true
-// if all legs fit.
+// Puts the character into a frame: all joints move along with the root, and feet are placed below it. `world` is its
+// placement in the previous frame, `scratch` its new one; coordinates of legs and feet in `row` are scratch. Returns
+// true if all legs fit.
 bool stand_bent(const Character& character, std::span<const Leg> legs, const GaitFrame& frame,
                 std::span<const Rigid> world, std::span<Rigid> scratch, std::span<double> row);
 
-// The largest share of the way on which legs and feet keep their joints' ranges and speeds, and no limb loses its room,
-// [0, 1]. `world` is where the character is seen; its joints go along with the root. Coordinates of legs and feet in `row`
-// are scratch. The room's frame is begun anew.
+// The largest fraction of the way on which legs and feet keep their joints' ranges and speeds, and no limb loses its
+// room, [0, 1]. `world` is the shown placement of the character; its joints move along with the root. Coordinates of
+// legs and feet in `row` are scratch. The room's frame is begun anew.
 double deepest_bend(const Character& character, LimbRoom& room, const Bend& bend, std::span<const Rigid> world,
                     const TrialSpace& scratch, std::span<double> row);
 

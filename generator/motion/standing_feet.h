@@ -1,5 +1,5 @@
-// Feet that stand: they stay where they are while a trunk moves their hips, and are lifted before an action of their own
-// leg moves them over the ground.
+// Feet that stand: they stay in place while a trunk moves their hips, and are lifted before an action of their own leg
+// moves them over the ground.
 #pragma once
 
 #include <array>
@@ -14,33 +14,33 @@ namespace contort {
 enum class LegUse {
   idle,
   placed,  // by a course, or by an author's key poses
-  acts,    // it has another action, or is on its way back from one
+  acts,    // another action moves it, or it returns from one
   lands,   // no action moves it any more, but its foot is still lifted
 };
 
 // A step of a foot that lands.
 struct LandingStep {
-  double share = 0.0;  // of its way
-  double lift = 1.0;   // the share of the height that it lacks over the ground, by which it is lifted
+  double share = 0.0;  // fraction of the way
+  double lift = 1.0;   // fraction of the missing height over the ground by which it is lifted
 };
 
 // Legs are named by their index in find_legs(). World coordinates.
 class StandingFeet {
  public:
-  // Everything that is given must outlive this object. No foot stands until it was seen.
+  // All arguments must outlive this object. No foot stands until it was seen to stand.
   void begin(const Character& character, std::span<const Leg> legs, const Environment& environment);
 
-  // Ends a frame. A foot that has an action of its own stands where it stood until it is well above the ground, and so
-  // does an idle one on a leg that the root part does not carry. Any other foot stands where it is, if it touches the
-  // ground.
+  // Ends a frame. A foot with an action of its own counts as standing where it stood until it is well above the ground,
+  // and so does an idle one on a leg that the root part does not carry. Any other foot stands where it is, if it
+  // touches the ground.
   void note(std::size_t leg, LegUse use, std::span<const Rigid> world);
 
-  // A lifted foot, which is where `world` has it, goes a step of its way to this sole, the higher the farther it is from
-  // there. True if it has arrived.
+  // Moves a lifted foot from its place in `world` a step towards this sole; the farther it is from there, the higher it
+  // is. Returns true if it has arrived.
   bool land(std::size_t leg, const Rigid& world_from_sole, LandingStep step, std::span<Rigid> world,
             std::span<double> row);
 
-  // Lifts a sole that would be in the ground onto it. False if it is not.
+  // Lifts a sole that would be in the ground onto it. Returns false if it is not in the ground.
   bool put_on_ground(std::size_t leg, Rigid& sole) const;
 
   // Returns true if the foot must stay in place although the part that carries its leg may move, as of the frame
@@ -49,29 +49,30 @@ class StandingFeet {
   std::span<const Leg> legs() const { return legs_; }
 
   // Puts the foot where it stood, as nearly as the joints' ranges allow. Writes the coordinates of leg and foot, and
-  // their transforms in `world`, which must hold what carries the leg, and the leg. False if it is there already.
+  // their transforms in `world`, which must hold the leg and its carrier. Returns false if the foot is there already.
   bool plant(std::size_t leg, std::span<Rigid> world, std::span<double> row) const;
 
-  // Whether an action moved the foot in the frame before, or it was on its way back from one.
+  // Returns true if an action moved the foot in the previous frame, or if it returned from one.
   bool moves(std::size_t leg) const { return use_[leg] == LegUse::acts || use_[leg] == LegUse::lands; }
 
-  // The distance of the foot from where it rested, m. It must have rested.
+  // The distance of the foot from its last resting place, m. It must have rested.
   double off_m(std::size_t leg, std::span<const Rigid> world) const;
 
-  // Puts the foot there as near as its leg reaches, and returns by how much it misses the place, m.
+  // Puts the foot there as near as its leg reaches, and returns its distance from the place, m.
   double missed_m(std::size_t leg, const Rigid& sole, std::span<Rigid> world, std::span<double> row) const;
 
   // Returns the last place where the foot stood while no action moved its leg; nullopt if it was in the air then.
   const std::optional<Rigid>& rests_at(std::size_t leg) const { return rests_[leg]; }
 
-  // As plant(), where the foot rested.
+  // Like plant(), at the place where the foot rested.
   void put_to_rest(std::size_t leg, std::span<Rigid> world, std::span<double> row) const;
 
-  // Lifts the foot by the height that it lacks to move over the ground without sliding. False if it lacks none.
+  // Lifts the foot by the missing height, so that it does not slide over the ground. Returns false if no height is
+  // missing.
   bool lift(std::size_t leg, std::span<Rigid> world, std::span<double> row) const;
 
-  // The height that the foot has to spare, m: a foot that goes elsewhere must be the higher the farther it is from where
-  // it stood. Infinite for a foot that does not stand.
+  // The spare height of the foot, m: a foot that moves away must be the higher, the farther it is from where it stood.
+  // Infinite for a foot that does not stand.
   double room_m(std::size_t leg, std::span<const Rigid> world) const;
 
  private:

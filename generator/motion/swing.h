@@ -1,4 +1,4 @@
-// A foot's step from one foothold to the next: how its swing clears the ground, and how its sole rolls.
+// A foot's step from one foothold to the next: the height of its swing over the ground, and the roll of its sole.
 #pragma once
 
 #include "generator/motion/gait_timing.h"
@@ -23,8 +23,8 @@ struct Step {
 // foot goes up first and then forward. Sets bump_m, at least about lift_m, and margin.
 void choose_swing(const Environment& environment, const Leg& leg, double lift_m, Step& step);
 
-// Sets the shares of the roll: less on a way shorter than a stride, none below a riser. `before` is the foothold before
-// `from`.
+// Sets the fractions of the roll: less on a path shorter than a stride, none below a riser. `before` is the foothold
+// before `from`.
 void choose_rolling(const Environment& environment, const Leg& leg, double stride_m, const Rigid& before, Step& step);
 
 // Returns the sole's place on its straight path, without lift and roll.

@@ -6,14 +6,14 @@
 
 namespace contort {
 
-// A bend, and how its share of the way goes with the progress of its course, both [0, 1].
+// A bend, and its fraction of the way as a function of the progress of its course, both [0, 1].
 struct BendCourse {
   const Bend& bend;
   FunctionRef<double(double)> share_at;
 };
 
-// The largest share of the way down, [0, 1], on which the hips accelerate upward and downward by at most 6 m/s^2 and
-// lean by at most 12 rad/s^2: a standing figure presses on its soles, and leans over them, no more than they can hold.
+// The largest fraction of the way down, [0, 1], on which the hips accelerate upward and downward by at most 6 m/s^2 and
+// lean by at most 12 rad/s^2, so that the soles can hold the figure.
 double calm_bend(const BendCourse& course);
 
 // Returns the level movement of the hips, m, with which the centre of mass at the end of the way down is near the point

@@ -5,7 +5,7 @@
 
 namespace contort {
 
-// Fills Timeline::part_order: carriers first, and a part that an action looks at before the part that it moves. Code
+// Fills Timeline::part_order: carriers first, and a part that an action reads before the part that it moves. Code
 // spec.circular_hold.
 Result<Done> order_parts(const Character& character, Timeline& out);
 

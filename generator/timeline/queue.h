@@ -34,15 +34,15 @@ struct PlannedInterrupt {
 
 class PlayQueue {
  public:
-  // The first `queued` sequences wait in order; the others belong to interrupts. Both must outlive the queue. Memory for
-  // everything that can happen is taken here.
+  // The first `queued` sequences wait in order; the others belong to interrupts. Both must outlive the queue. All
+  // memory is allocated here.
   void start(std::span<const PlannedSequence> sequences, std::span<const PlannedInterrupt> interrupts, int queued);
 
-  // Brings the queue to a frame: 0, 1, 2 …, each once. `signals` has an entry for each interrupt: whether its condition
-  // holds, for those that the queue does not know itself (see knows).
+  // Advances the queue to a frame: 0, 1, 2 …, each once. `signals` has an entry for each interrupt, true if its
+  // condition holds, for those that the queue does not decide itself (see knows).
   void advance(int frame, std::span<const char> signals);
 
-  // From now on no interrupt fires, and those that wait for a clip's end do not enter.
+  // From now on no interrupt fires, and interrupts that wait for a clip's end do not enter.
   void leave_out_interrupts();
 
   bool idle() const { return !runs_ && waiting_.empty(); }
@@ -55,11 +55,11 @@ class PlayQueue {
  private:
   struct Waiting {
     int sequence = 0;
-    int content = 0;  // its own frame at which it continues
+    int content = 0;  // the sequence's own frame at which it continues
   };
-  struct Pending {  // after_clip
+  struct Pending {  // waits for the end of a clip (after_clip)
     int holder = 0;
-    int content = 0;  // the frame of the running sequence at which that is cut
+    int content = 0;  // the frame of the running sequence at which it is cut
     int interrupt = 0;
   };
 

@@ -12,7 +12,7 @@
 namespace contort {
 
 // One action on one part, at its place in its sequence. Times are in frames from the sequence's start, with fractions
-// where stretching made them. An action that moves several parts is planned once for each.
+// due to stretching. An action that moves several parts is planned once for each.
 struct PlannedAction {
   int sequence = 0;  // indices into the spec
   int clip = 0;
@@ -42,13 +42,13 @@ struct PlannedAction {
 
 // An action that an aim may acquire if its own part cannot point at the target (docs/internals/aim.md).
 struct FurtherAction {
-  int of_use = 0;  // the use that aims
-  int action = 0;  // index into Timeline::actions: on the part that is to help, a torso or the root
+  int of_use = 0;  // the use of the aim
+  int action = 0;  // index into Timeline::actions; its part is the helping one, a torso or the root
 };
 
-// The level that is played alone, in numbers of the timeline.
+// The level that is played alone, with indices of the timeline.
 struct Level {
-  int sequence = -1;  // index, of interrupts' sequences too; -1: the whole spec
+  int sequence = -1;  // index, including sequences of interrupts; -1: the whole spec
   int clip = -1;      // -1: the whole sequence
   int begins = 0;     // frames of its sequence
   int ends = 0;
@@ -62,8 +62,8 @@ struct Timeline {
   std::vector<FurtherAction> further;  // in the order of the uses that aim; of one use the torso before the root
   int use_count = 0;
   std::vector<std::vector<int>> of_part;  // indices into actions, by sequence * part_count + part
-  std::vector<int> part_order;            // carriers first; a part that an action looks at comes before the parts that
-                                          // the action moves
+  // Carriers first; a part that an action reads comes before the parts that the action moves.
+  std::vector<int> part_order;
   int frame_count = 0;                    // up to the end of the last sequence, with every interrupt
 };
 
@@ -83,18 +83,18 @@ bool takes_its_time(const PlannedAction& action);
 // Progress of an action at a frame of its sequence, in [0, 1].
 double progress(const PlannedAction& action, int frame);
 
-// The share by which an action has come in, a course since it took its part at `came`; and the share left while it
-// fades out. Frames of its sequence; both in [0, 1].
+// How far an action has blended in, where a course took its part at `came`; and the fraction left while it fades out.
+// Frames of its sequence; both in [0, 1].
 double blended_in(const PlannedAction& action, double came, int frame);
 double not_blended_out(const PlannedAction& action, int frame);
 
-// As blended_in, of an action that has had its part for `held_frames` of the motion: a course that was cut comes in again
-// where it goes on, because a walk would start with both feet at home, wherever they are. Key poses, on the layer
-// overwrite, start from where the part is by themselves. Not for an action that takes its time.
+// Like blended_in, for an action that has had its part for `held_frames` of the motion: a course that was cut blends in
+// again when it continues, because a walk starts with both feet at home, wherever they are. Key poses, on the layer
+// overwrite, always start from the part's present posture. Not for an action with automatic blending.
 double come_in(const PlannedAction& action, double came, int frame, int held_frames, double rate_hz);
 
-// Minimum-jerk easing from 0 to 1 with no speed or acceleration at either end: 10 u^3 - 15 u^4 + 6 u^5 (Flash and
-// Hogan 1985). Its greatest slope is 1.875, in the middle. Before 0 it is 0, and after 1 it is 1.
+// Minimum-jerk easing from 0 to 1 with no speed or acceleration at either end: 10 u^3 - 15 u^4 + 6 u^5 (Flash and Hogan
+// 1985). Its greatest slope is 1.875, in the middle. It is 0 before 0, and 1 after 1.
 double ease(double u);
 
 }  // namespace contort

@@ -28,7 +28,7 @@ struct AssetNode {
   std::string label;  // Never empty, never twice: the name, or "<name>#<index>" where that is empty or not unique.
   int parent = -1;    // -1 for a root. Not always smaller than the own index, see Asset::order.
   Trs rest;
-  bool is_joint = false;  // Some skin lists it, or it is a joint of a BVH.
+  bool is_joint = false;  // A skin lists it, or it is a joint of a BVH.
   bool operator==(const AssetNode&) const = default;
 };
 
@@ -36,7 +36,7 @@ struct AssetSkin {
   std::string name;
   int skeleton = -1;                  // The common root that the file names, or -1.
   std::vector<int> joints;            // Nodes.
-  std::vector<Mat4> joint_from_mesh;  // The inverse bind matrices: as many as joints, identity where the file has none.
+  std::vector<Mat4> joint_from_mesh;  // Inverse bind matrices, one for each joint; identity if the file has none.
   bool operator==(const AssetSkin&) const = default;
 };
 
@@ -59,7 +59,7 @@ struct AssetChannel {
 inline std::size_t row_size(ChannelPath path) { return path == ChannelPath::rotation ? 4 : 3; }
 
 struct AssetClip {
-  std::string name;                    // As in the file.
+  std::string name;                    // The file's name.
   std::string label;                   // Unique, made like a node's.
   std::vector<AssetChannel> channels;  // At most one for each (node, path). Morph weights are left out.
   double first_s = 0.0;                // The first and last key of all channels; both 0 without channels.
@@ -68,14 +68,14 @@ struct AssetClip {
   bool operator==(const AssetClip&) const = default;
 };
 
-// A fault of a file that the reader skipped, because its caller asked for that (formats/gltf/read.h).
+// A fault of a file that the reader skipped, as its caller requested (formats/gltf/read.h).
 struct AssetFault {
   std::string clip;   // its label; "" if the fault concerns all clips
   int node = -1;      // the node of the channel, or -1
   std::string code;   // the code of the Issue: "gltf.bad_times"
   std::string where;  // a JSON pointer into the file
   std::string text;
-  // For a rotation that is not a unit quaternion: the number of its key, and its length. The channel was read
+  // For a rotation that is not a unit quaternion: the index of its key, and its length. The channel was read
   // nevertheless.
   int key = -1;
   double length = 1.0;

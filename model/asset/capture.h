@@ -21,7 +21,8 @@ inline bool is_rotation(DofKind kind) { return kind <= DofKind::rz; }
 // A degree of freedom: one number of a bone's line in each frame.
 struct AsfDof {
   DofKind kind = DofKind::rx;
-  double low = 0.0;  // rad for rotations, else the file's unit of length. Both infinite where nothing is declared.
+  // Rad for rotations, otherwise the file's unit of length. Both are infinite if no limits are declared.
+  double low = 0.0;
   double high = 0.0;
   bool operator==(const AsfDof&) const = default;
 };
@@ -41,8 +42,8 @@ struct AsfBone {
 
 struct AsfSkeleton {
   std::string name;
-  double length_unit = 1.0;    // As declared. CMU's 0.45 means: a length of 1 is 1 / 0.45 inches.
-  bool is_in_degrees = false;  // Whether the file is written in degrees; values here are rad.
+  double length_unit = 1.0;    // As declared. With CMU's 0.45, a length of 1 is 1 / 0.45 inches.
+  bool is_in_degrees = false;  // True if the file's angles are in degrees; values here are always rad.
   Vec3 root_position{0.0};
   std::vector<AsfBone> bones;  // Bone 0 is the root; the others are in the file's order.
   std::vector<int> order;      // Every bone once, parents before children.
@@ -51,9 +52,9 @@ struct AsfSkeleton {
 
 // A motion of such a skeleton: its numbers.
 struct AmcMotion {
-  int first_frame = 0;  // The file's number of the first frame, mostly 1. Frames are numbered without a gap.
+  int first_frame = 0;  // The file's number of the first frame, mostly 1. Numbers have no gaps.
   int frame_count = 0;
-  int dof_count = 0;  // The degrees of freedom of all bones, root included.
+  int dof_count = 0;  // Number of degrees of freedom of all bones, including the root.
   std::vector<double>
       values;  // Frame by frame; in a frame bone by bone in the skeleton's order, not the AMC's. In rad.
   bool operator==(const AmcMotion&) const = default;

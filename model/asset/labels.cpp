@@ -11,7 +11,7 @@ std::vector<std::string> unique_labels(std::span<const std::string> names) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     std::string label = names[i];
     const bool is_unique = !label.empty() && uses[label] == 1;
-    // Once more where the file itself has a name like "hand#3".
+    // Repeats the number if the file itself has a name like "hand#3".
     while (!is_unique && (label == names[i] || uses.contains(label))) label += "#" + std::to_string(i);
     uses.try_emplace(label, 1);
     labels.push_back(std::move(label));

@@ -14,10 +14,11 @@ namespace {
 
 using Row = std::array<double, 4>;  // The last one is unused in vectors.
 
-constexpr double kLongestFrame_s = 1.0 / 60.0;    // that a display shows
-constexpr double kShortestFrame_s = 1.0 / 240.0;  // that a person sees
-constexpr double kSparsest_s = 1.0 / 11.9;        // between keys of a sampled motion: films are drawn at 12 a second
-constexpr double kNearlyAll = 0.9;                // of a frame: times of keys are rounded, up to a millisecond
+constexpr double kLongestFrame_s = 1.0 / 60.0;    // longest time for which a display shows a frame
+constexpr double kShortestFrame_s = 1.0 / 240.0;  // shortest time for which a person sees a frame
+// Greatest distance between keys of a sampled motion: films are drawn at 12 a second.
+constexpr double kSparsest_s = 1.0 / 11.9;
+constexpr double kNearlyAll = 0.9;                // part of a frame: times of keys are rounded, up to a millisecond
 
 // The keys around a time.
 struct KeySpan {
@@ -38,7 +39,7 @@ KeySpan locate(const std::vector<double>& times_s, double t_s) {
 
 enum Tangent : std::size_t { in_tangent, key_value, out_tangent };
 
-// A row of a spline's key, or the only row of another's.
+// A row of a spline's key; other channels have only one row per key.
 Row row_at(const AssetChannel& channel, std::size_t key, Tangent which) {
   const bool is_spline = channel.interpolation == Interpolation::cubic_spline;
   const std::size_t size = row_size(channel.path);
@@ -66,7 +67,7 @@ Row spline(const AssetChannel& channel, const KeySpan& span) {
 Quat to_rotation(const Row& xyzw) { return Quat(xyzw[3], xyzw[0], xyzw[1], xyzw[2]); }
 Vec3 to_vector(const Row& xyz) { return Vec3(xyz[0], xyz[1], xyz[2]); }
 
-// A spline may pass through the quaternion 0, which is no rotation; the key before stands in for it.
+// A spline may pass through the quaternion 0, which is no rotation. The key before then replaces it.
 Quat unit_or_key(const Row& xyzw, const Quat& key) {
   const Quat q = to_rotation(xyzw);
   const double length = std::sqrt(glm::dot(q, q));
@@ -77,7 +78,7 @@ bool holds_left_key(const AssetChannel& channel, const KeySpan& span) {
   return span.left == span.right || channel.interpolation == Interpolation::step;
 }
 
-// From a to b, the short way. conj(a) * b has the angle whatever the signs of a and b are.
+// The rotation from a to b, the short way. conj(a) * b has the same angle for all signs of a and b.
 SpeedInterval interval(double t0_s, double t1_s, const Quat& a, const Quat& b) {
   return {t0_s, t1_s, rotation_angle(glm::conjugate(a) * b) / (t1_s - t0_s)};
 }
@@ -91,24 +92,24 @@ double mean_distance_s(const std::vector<double>& times_s) {
   return (times_s.back() - times_s.front()) / steps;
 }
 
-// A display's frame, or the mean distance of the keys where that is shorter.
+// A display's frame, or the mean distance of the keys if that is shorter.
 double shown_frame_s(const std::vector<double>& times_s) {
   return std::clamp(mean_distance_s(times_s), kShortestFrame_s, kLongestFrame_s);
 }
 
-// A motion that was sampled and written as STEP does not jump: its keys are its frames.
+// A motion that was sampled and written as STEP does not jump: its keys are frames.
 bool jumps_between_keys(const AssetChannel& channel) {
   return channel.interpolation == Interpolation::step && mean_distance_s(channel.times_s) > kSparsest_s;
 }
 
-// The jump of a STEP at the end of an interval, by the frame that shows it.
+// The jump of a STEP channel at the end of an interval, in the frame that shows it.
 SpeedInterval shown_jump(const AssetChannel& channel, std::size_t key, double frame_s) {
   const double t1 = channel.times_s[key + 1];
   return interval(t1 - frame_s, t1, sample_rotation(channel, t1 - kNearlyAll * frame_s),
                   key_rotation(channel, key + 1));
 }
 
-// An interval that is shorter than a frame, by the faster of the frames that begin and end with it.
+// The speed in an interval that is shorter than a frame: the faster of the two frames that begin and end with it.
 SpeedInterval shown_interval(const AssetChannel& channel, std::size_t key, double frame_s) {
   const double t0 = channel.times_s[key], t1 = channel.times_s[key + 1];
   const SpeedInterval from =
@@ -118,7 +119,7 @@ SpeedInterval shown_interval(const AssetChannel& channel, std::size_t key, doubl
   return from.speed_rad_s > upto.speed_rad_s ? from : upto;
 }
 
-// From Hermite's form to Bezier's.
+// Converts a spline from Hermite's form to Bezier's.
 BezierTurn bezier_of(const AssetChannel& channel, std::size_t key) {
   const double third_s = (channel.times_s[key + 1] - channel.times_s[key]) / 3.0;
   const Row v0 = row_at(channel, key, key_value), b0 = row_at(channel, key, out_tangent);
@@ -128,7 +129,7 @@ BezierTurn bezier_of(const AssetChannel& channel, std::size_t key) {
   return out;
 }
 
-// The fastest moment of a spline, with the frame around it. No frame shows more than half a turn.
+// The fastest moment of a spline, with the frame around it. At most half a turn per frame is visible.
 SpeedInterval peak_of_spline(const AssetChannel& channel, std::size_t key, double frame_s) {
   const double t0 = channel.times_s[key], t1 = channel.times_s[key + 1];
   const double most_rad_s = kPi / frame_s;

@@ -13,9 +13,9 @@ namespace contort {
 inline constexpr std::size_t kInfluences = 8;  // joints on one vertex; further ones are not read
 
 struct SkinnedVertex {
-  Vec3 position{0.0};                         // in the mesh's own frame, in which joint_from_mesh starts
+  Vec3 position{0.0};                         // in the mesh's own frame, to which joint_from_mesh applies
   std::array<int, kInfluences> joints{};      // indices into the skin's joints
-  std::array<double, kInfluences> weights{};  // >= 0; their sum is 1, or 0 for a vertex that hangs on nothing
+  std::array<double, kInfluences> weights{};  // >= 0; their sum is 1, or 0 for a vertex without joints
   bool operator==(const SkinnedVertex&) const = default;
 };
 
@@ -30,7 +30,7 @@ struct SkinnedMesh {
 struct SkinnedAsset {
   Asset asset;
   std::vector<SkinnedMesh> meshes;      // one for each node with a mesh and a skin
-  std::map<std::string, int> humanoid;  // VRM's bones, "leftUpperArm", to nodes; empty without VRM
+  std::map<std::string, int> humanoid;  // nodes of VRM's bones, by name ("leftUpperArm"); empty without VRM
   bool operator==(const SkinnedAsset&) const = default;
 };
 

@@ -10,10 +10,10 @@ namespace contort {
 
 namespace {
 
-constexpr double kTolerance = 1.01;   // of the true peak to what is found
-constexpr double kStill_rad = 1e-6;   // slower than this does not count
+constexpr double kTolerance = 1.01;   // greatest ratio of the true peak to the result
+constexpr double kStill_rad = 1e-6;   // slower rotations count as none
 constexpr int kMostPieces = 512;      // splines of real files take about ten
-constexpr double kNoLength = 1e-24;   // of a quaternion, squared: no rotation
+constexpr double kNoLength = 1e-24;   // squared length of a quaternion that is no rotation
 
 // A polynomial on [0, 1] by Bernstein's coefficients.
 template <std::size_t Degree>
@@ -44,7 +44,7 @@ std::array<double, N + M - 1> times(const std::array<double, N>& a, const std::a
   return out;
 }
 
-// De Casteljau: the halves of a polynomial.
+// De Casteljau's algorithm: splits a polynomial into its halves.
 template <std::size_t N>
 std::pair<std::array<double, N>, std::array<double, N>> halves(std::array<double, N> p) {
   std::pair<std::array<double, N>, std::array<double, N>> out;
@@ -56,7 +56,7 @@ std::pair<std::array<double, N>, std::array<double, N>> halves(std::array<double
   return out;
 }
 
-// A part of the way, with |q ^ q'|^2 and |q|^2 on it.
+// A part of the interval, with bounds of |q ^ q'|^2 and |q|^2 on it.
 struct Piece {
   double from = 0.0;
   double to = 1.0;

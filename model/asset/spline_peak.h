@@ -1,4 +1,4 @@
-// Finds how fast a cubic spline of quaternions turns between two keys.
+// Finds the greatest turning speed of a cubic spline of quaternions between two keys.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace contort {
 
-// The spline's Bezier points as x y z w; it is normalised on the way, as glTF asks (appendix C).
+// The spline's Bezier points as x y z w; values between them are normalised, as glTF requires (appendix C).
 using BezierTurn = std::array<std::array<double, 4>, 4>;
 
 struct SplinePeak {

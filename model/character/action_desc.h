@@ -17,14 +17,14 @@ using ParamValue = std::variant<double, Vec3, std::string>;
 enum class KeyEase {
   smooth,  // minimum jerk
   linear,
-  step,  // holds the pose before, then jumps at the key
+  step,  // holds the previous pose, then jumps at the key
   sine,  // half a cosine: reverses without a pause
 };
 
 struct KeyPoseDesc {
   double at = 1.0;  // fraction of the action's period, (0, 1]
-  KeyEase ease = KeyEase::smooth;          // easing of the movement from the key before to this one
-  std::map<std::string, ParamValue> pose;  // "elbow_deg": 90, as in the parameters of `pose`
+  KeyEase ease = KeyEase::smooth;          // easing from the previous key to this one
+  std::map<std::string, ParamValue> pose;  // "elbow_deg": 90, with the parameters of `pose`
   bool operator==(const KeyPoseDesc&) const = default;
 };
 
@@ -47,7 +47,7 @@ struct ActionDesc {
   std::vector<std::string> kinds;
   std::vector<KeyPoseDesc> keys;             // in the order of `at`
   std::string of;                            // a built-in action
-  std::map<std::string, ParamValue> params;  // the values of the parameters of `of` that a spec leaves out
+  std::map<std::string, ParamValue> params;  // values of parameters of `of`; a spec may give others
   std::vector<std::string> script;           // lines of Lua
   std::vector<std::string> sets;             // the values that the script computes: parameters of `pose`, or of `of`
   std::vector<ScriptParamDesc> parameters;   // the parameters of the script

@@ -6,8 +6,8 @@ namespace contort {
 
 namespace {
 
-// Turns a part's own numbers into those of its slot: the identity on the left and in the middle, a reflection in x = 0
-// on the right. Axes of rotation are axial vectors; the axis of a travel is a direction.
+// Converts a part's data to its slot's side: unchanged on the left and in the middle, a reflection in x = 0 on the
+// right. Axes of rotation are axial vectors; the axis of a travel is a direction.
 struct Handed {
   bool mirror;
   Vec3 point(const Vec3& p) const { return mirror ? mirror_point(p) : p; }
@@ -49,7 +49,7 @@ Shape moved_shape(const Rigid& to_from_own, const Shape& shape) {
   return std::visit([&](const auto& s) -> Shape { return MoveShape{to_from_own}(s); }, shape);
 }
 
-// Found from the points as authored, which check_part has seen, and then moved like them.
+// The polyhedron of the points as authored, which check_part has checked, moved to the slot.
 std::shared_ptr<const Polyhedron> polyhedron_of(const ColliderShape& shape, bool mirror, const Rigid& to_from_own) {
   const auto* hull = std::get_if<ConvexHull>(&shape);
   if (hull == nullptr) return nullptr;
@@ -92,7 +92,7 @@ void set_limits(Joint& joint, const JointDesc& desc, const Handed& handed) {
   joint.strength_high = desc.strength_high;
 }
 
-// One part on its way into an assembly: resolves the part's own joint names.
+// Adds one part to an assembly, and resolves the part's own joint names.
 class PartAdder {
  public:
   PartAdder(Assembly& assembly, const SlotDesc& slot, const PartDesc& desc, const Dock& dock)

@@ -9,17 +9,17 @@
 
 namespace contort {
 
-// The limits of a whole character. Every pair of colliders is examined: 523,776 at most.
+// The limits of a whole character. All pairs of colliders are examined: at most 523,776.
 inline constexpr std::size_t kMaxCharacterJoints = 1024;
 inline constexpr std::size_t kMaxCharacterColliders = 1024;
 
-// A part docks to a joint of the assembly that is built so far, in a frame on it.
+// The place at which a part is attached: a frame on a joint of the assembly.
 struct Dock {
   int joint = 0;
   Rigid joint_from_dock;
 };
 
-// A character while it is built.
+// A character under construction.
 struct Assembly {
   std::vector<Joint> joints;
   std::vector<Part> parts;
@@ -50,7 +50,7 @@ std::vector<Body> group_colliders(Assembly& assembly);
 CollisionPlan plan_collisions(const Assembly& assembly, std::vector<Body> bodies,
                               const std::vector<AllowedPair>& by_user);
 
-// Returns a hash over everything that can change a motion or a finding.
+// Returns a hash over all data that can change a motion or a finding.
 std::uint64_t hash_of(const Character& character);
 
 // Returns the index of a socket; -1 if there is none.

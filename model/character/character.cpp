@@ -192,7 +192,7 @@ class CharacterBuilder {
     return names_of(names);
   }
 
-  // A user's pair may name parts that are swapped out now: it then waits until they are back.
+  // Ignores pairs of parts that are not in use: they apply when the parts are swapped in.
   Result<Done> add_pairs() {
     std::vector<Body> bodies = group_colliders(assembly_);
     std::vector<AllowedPair> by_user;
@@ -242,7 +242,7 @@ class CharacterBuilder {
     out_.rest_root_ = {kNoRotation, Vec3(0.0, -lowest, 0.0)};
   }
 
-  // Eight handles are what control solves for at once.
+  // Control solves for eight handles at once, so a group has at most eight.
   Result<Done> add_control_groups() {
     for (std::size_t i = 0; i < desc_->control_groups.size(); ++i) {
       const ControlGroupDesc& desc = desc_->control_groups[i];
@@ -264,8 +264,8 @@ class CharacterBuilder {
     return Done{};
   }
 
-  // A region of a point that a swapped part does not have waits until a part has it; one that no part of the slot has
-  // is a slip of the pen.
+  // Ignores a region whose point belongs to a part that is not in use. A point that no part of the slot has is an
+  // error.
   Result<Done> add_regions() {
     for (std::size_t i = 0; i < desc_->regions.size(); ++i) {
       const RegionDesc& desc = desc_->regions[i];

@@ -45,7 +45,8 @@ struct Joint {
   double strength_low = 0.0;
   double strength_high = 0.0;
 
-  // The body that moves with the joint, with everything that is fixed to it (parts without joints, attached objects).
+  // The mass of the body that moves with the joint, including everything that is fixed to it (parts without joints,
+  // attached objects).
   double mass_kg = 0.0;
   Vec3 center_of_mass_m{0.0};  // in the joint's frame
   Mat3 inertia_kg_m2{0.0};     // about the centre of mass, axes of the joint's frame
@@ -64,7 +65,7 @@ struct Collider {
   std::shared_ptr<const Polyhedron> polyhedron{};  // The hull of a ConvexHull, in that joint's frame; null for others.
 };
 
-// Colliders that move as one and are judged as one: those of a part or object on one joint.
+// Colliders that move and are judged as one: those of a part or an object on one joint.
 struct Body {
   std::string name;  // "arm_left/forearm"; "waist" for a part's fixed body; "object:rifle"
   int joint = 0;
@@ -84,14 +85,14 @@ struct Socket {
   Rigid joint_from_socket;
 };
 
-// Joints that dynamic control uses together (ControlGroupDesc).
+// Joints that dynamic control uses together (see ControlGroupDesc).
 struct JointGroup {
   std::string name;
   std::vector<int> joints;
   double greatest = 0.0;  // rad/s^2, m/s^2
 };
 
-// A region in which a point must stay, or must not come (RegionDesc).
+// A region that a point must stay in, or out of (see RegionDesc).
 struct Region {
   std::string name;
   int joint = 0;
@@ -164,7 +165,7 @@ class Character {
   int coord_count() const { return coord_count_; }
   std::span<const double> rest_coords() const { return rest_coords_; }
 
-  // World placement of the root at rest: upright at the origin with the lowest collider point at height 0.
+  // World transform of the root at rest: upright at the origin, with the lowest collider point at height 0.
   const Rigid& rest_root() const { return rest_root_; }
 
   // The actions from files that apply to one of the parts, in the library's order.
@@ -174,10 +175,10 @@ class Character {
   std::span<const JointGroup> control_groups() const { return control_groups_; }
 
   std::span<const Region> regions() const { return regions_; }
-  // The horizontal push that its file says it shall withstand.
+  // The horizontal push that the figure must withstand according to its file.
   const std::optional<double>& declared_withstands_N_s() const { return withstands_N_s_; }
 
-  // A hash over everything that can change a motion or a finding; cases store it.
+  // A hash over all data that can change a motion or a finding. Cases store it.
   std::uint64_t hash() const { return hash_; }
 
   int find_part(std::string_view slot) const;  // -1 if there is none, here and in the next functions

@@ -1,4 +1,4 @@
-// Finds out which colliders form a body, and which bodies may not touch.
+// Finds the colliders of each body, and the pairs of bodies that may not touch.
 #include <algorithm>
 #include <map>
 
@@ -8,7 +8,7 @@ namespace contort {
 
 namespace {
 
-// "arm_left" of "arm_left/forearm", "object:rifle" of "object:rifle/barrel".
+// The owner in a collider's name: "arm_left" for "arm_left/forearm", "object:rifle" for "object:rifle/barrel".
 std::string owner_of(const Collider& collider) { return collider.name.substr(0, collider.name.find('/')); }
 
 std::string body_name(const Assembly& assembly, const Collider& collider) {
@@ -18,7 +18,7 @@ std::string body_name(const Assembly& assembly, const Collider& collider) {
   return own_joint ? owner + "/" + joint.body_name : owner;
 }
 
-// For each joint, the body that carries its body: massless links in between are the axes of one anatomical joint, not
+// For each joint, the body that carries its body. Massless links in between are axes of one anatomical joint, not
 // bodies.
 std::vector<int> find_carriers(const Assembly& assembly) {
   std::vector<char> solid(assembly.joints.size(), 0);
@@ -61,7 +61,7 @@ CollisionPlan plan_collisions(const Assembly& assembly, std::vector<Body> bodies
   CollisionPlan plan;
   plan.bodies = std::move(bodies);
   const std::vector<int> carriers = find_carriers(assembly);
-  std::map<std::pair<int, int>, const AllowedPair*> named;  // the first of equal ones
+  std::map<std::pair<int, int>, const AllowedPair*> named;  // the first of several equal pairs
   for (const AllowedPair& pair : by_user) named.try_emplace({pair.a, pair.b}, &pair);
   const auto sort_pair = [&](int a, int b, const char* kin) {
     const auto user = named.find({a, b});

@@ -68,7 +68,8 @@ struct MeshDesc {
   bool operator==(const MeshDesc&) const = default;
 };
 
-// A named frame on a part: other parts and attached objects dock here; actions use it as a point with a direction (+Z).
+// A named frame on a part. Other parts and attached objects are attached to it, and actions use it as a point with a
+// direction (+Z).
 struct SocketDesc {
   std::string name;
   std::string joint;
@@ -103,9 +104,9 @@ struct PartDesc {
   std::vector<SocketDesc> sockets;
   std::vector<ReachDesc> reach;    // At most one.
   std::vector<FacingDesc> facing;  // At most one.
-  // The part's fixed body: everything that is rigidly fixed to the place where the part docks, above its first joint.
-  // For the root part that is the root body itself; a part without joints (a backpack) consists of it alone. Frame: the
-  // docking frame.
+  // The part's fixed body: everything that is rigidly fixed to the place where the part is attached, above its first
+  // joint. For the root part it is the root body itself. A part without joints (a backpack) has no other body. Its
+  // frame is that of the socket.
   double fixed_mass_kg = 0.0;
   Vec3 fixed_center_of_mass_m{0.0};
   Vec3 fixed_inertia_kg_m2{0.0};
@@ -148,8 +149,8 @@ struct AllowedPairDesc {  // Colliders that may touch: "slot/collider", or "obje
   bool operator==(const AllowedPairDesc&) const = default;
 };
 
-// Joints that dynamic control uses together (docs/internals/dynamics.md). "root" stands for the position of the hips
-// and their pitch.
+// Joints that dynamic control uses together (docs/internals/dynamics.md). "root" means the position of the hips and
+// their pitch.
 struct ControlGroupDesc {
   std::string name;                 // "arms"
   std::vector<std::string> joints;  // "arm_left/shoulder"; a ball counts as two, the root as four, eight at most
@@ -157,8 +158,8 @@ struct ControlGroupDesc {
   bool operator==(const ControlGroupDesc&) const = default;
 };
 
-// A space in which a point of the figure must stay, or must not come: hands in front of the chest, a muzzle out of the
-// head. The shape moves with the root: its frame is the character's, on the ground under the root at rest, +Z forward.
+// A space that a point of the figure must stay in, or out of: hands in front of the chest, a muzzle out of the head.
+// The shape moves with the root: its frame is the character's, on the ground under the root at rest, +Z forward.
 struct RegionDesc {
   std::string name;   // Unique in the character.
   std::string point;  // "arm_left/grip": a socket, or else a joint, of a slot

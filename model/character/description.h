@@ -8,7 +8,7 @@
 
 namespace contort {
 
-// Adds a part, an object, a character or an action; its "format" tells which one it is. Codes of the parsers in
+// Adds a part, an object, a character or an action; the kind follows from its "format". Codes of the parsers in
 // library.h; *.duplicate_name; library.wrong_format.
 Result<Done> add_description(std::string_view json, Library& into);
 

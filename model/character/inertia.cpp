@@ -4,7 +4,7 @@ namespace contort {
 
 namespace {
 
-// m (d.d 1 - d dT): what a point mass at d adds about the origin.
+// m (d.d 1 - d dT): the inertia of a point mass at d about the origin.
 Mat3 point_inertia(double mass_kg, const Vec3& d) {
   return mass_kg * (glm::dot(d, d) * Mat3(1.0) - glm::outerProduct(d, d));
 }

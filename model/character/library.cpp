@@ -46,12 +46,12 @@ Result<Done> insert_action(std::vector<ActionDesc>& into, const Result<ActionDes
     if (const std::string same = clash(*action, other); !same.empty())
       return Issue{"action.duplicate_name", "/name", "\"" + action->name + "\" is there already for " + same};
   into.push_back(*action);
-  // Not std::ranges: clang++ 14 cannot compile the subrange that it returns.
+  // Avoids std::ranges, because clang++ 14 cannot compile the subrange that it returns.
   std::stable_partition(into.begin(), into.end(), [](const ActionDesc& a) { return a.parts.empty(); });
   return Done{};
 }
 
-// "contort.part/1" of {"format": "contort.part/1", …}; "" where there is none.
+// The text "contort.part/1" from {"format": "contort.part/1", …}; "" if there is none.
 std::string format_of(const json_fields::Json& tree) {
   if (!tree.is_object()) return "";
   const auto format = tree.find("format");

@@ -26,8 +26,8 @@ struct Library {
 const Library& stock_library();
 
 // Adds every *.json of `folder` (parts, objects, characters, actions, recognised by their "format") to `into`. A name
-// that exists already is an error: a file never changes the meaning of a stored case. Only actions may share a name, if
-// they are for different parts. check_actions (generator/actions) tells whether the parts can perform it.
+// that exists already is an error, so that a file never changes the meaning of a stored case. Only actions for
+// different parts may share a name. check_actions (generator/actions) checks whether the parts can perform it.
 Result<Done> load_folder(const std::string& folder, Library& into);
 
 // Reads one description from JSON text. Codes "part.*", "object.*", "character.*", "action.*", "json.*".

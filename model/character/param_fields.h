@@ -6,7 +6,7 @@
 
 namespace contort::json_fields {
 
-// A parameter is written as a number, three numbers, or a word; the action's declaration says which one is valid.
+// A parameter is written as a number, three numbers, or a word; the action's declaration decides which one is valid.
 template <>
 struct Codec<ParamValue> {
   static void read(const Json& in, const Rule&, ParamValue& out, ReadContext& c) {

@@ -25,7 +25,7 @@ bool has_socket(const PartDesc& part, std::string_view socket) {
   return false;
 }
 
-// Whether a body that hangs on `joint` moves when joint `carrier` does.
+// Returns true if a body on `joint` moves when joint `carrier` does.
 bool moves_with(const PartDesc& part, std::string_view joint, std::string_view carrier) {
   for (int i = index_of(part, joint); i >= 0; i = index_of(part, part.joints[static_cast<std::size_t>(i)].parent))
     if (part.joints[static_cast<std::size_t>(i)].name == carrier) return true;

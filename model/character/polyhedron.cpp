@@ -14,12 +14,12 @@ namespace contort {
 
 namespace {
 
-using Mask = std::uint64_t;  // of points
+using Mask = std::uint64_t;  // set of points
 static_assert(kMaxHullPoints <= 64);
 
 bool has(Mask mask, std::size_t i) { return (mask >> i & 1) != 0; }
 
-// Greatest difference of a coordinate.
+// The greatest difference of a coordinate between two points.
 double extent_of(std::span<const Vec3> points) {
   Vec3 low(std::numeric_limits<double>::infinity()), high(-low);
   for (const Vec3& p : points) low = glm::min(low, p), high = glm::max(high, p);
@@ -34,13 +34,14 @@ std::vector<Vec3> without_repeats(std::span<const Vec3> points, double tolerance
   return kept;
 }
 
-// A plane with all points behind it, and those on it.
+// A plane with all points on it or behind it, and the set of points on it.
 struct Facet {
   Vec3 normal{0.0};
   Mask on = 0;
 };
 
-// The plane through a point, across `across`, with all other points behind it or on it; on = 0 where that is not so.
+// The plane through a point, at a right angle to `across`, if all other points are on one side of it or on it;
+// otherwise on = 0.
 Facet facet_across(std::span<const Vec3> points, const Vec3& through, const Vec3& across, double tolerance) {
   const Vec3 normal = across / length(across);
   Mask on = 0;
@@ -51,11 +52,12 @@ Facet facet_across(std::span<const Vec3> points, const Vec3& through, const Vec3
     if (before && behind) return {};
     if (std::fabs(height) <= tolerance) on |= Mask{1} << i;
   }
-  if (before == behind) return {};  // all in the plane
+  if (before == behind) return {};  // all points are in the plane
   return {before ? -normal : normal, on};
 }
 
-// Every three points are tried: few points, but nothing to go astray. Slivers tell too little about their plane.
+// Tries every three points, which is simple and fast enough for few points. Slivers are skipped, because they do not
+// define their plane well.
 std::vector<Facet> facets_of(std::span<const Vec3> points, double tolerance, double sliver) {
   std::vector<Facet> facets;
   const std::size_t n = points.size();
@@ -75,8 +77,8 @@ std::vector<Facet> facets_of(std::span<const Vec3> points, double tolerance, dou
   return facets;
 }
 
-// The corners of a facet, counter-clockwise seen from outside: from the one farthest from its middle, always on to the
-// point that has all others on its left.
+// The corners of a facet, counter-clockwise seen from outside. Begins at the corner that is farthest from the middle.
+// The next corner is always the point that has all others on its left.
 std::vector<int> loop_of(std::span<const Vec3> points, const Facet& facet, double tolerance) {
   std::vector<std::size_t> on;
   Vec3 sum(0.0);
@@ -93,7 +95,7 @@ std::vector<int> loop_of(std::span<const Vec3> points, const Facet& facet, doubl
     for (const std::size_t i : on) {
       if (i == here) continue;
       const Vec3 step = points[next] - points[here], other = points[i] - points[here];
-      // The distance of `other` to the right of the way to `next`.
+      // How far `other` is to the right of the line to `next`.
       const double right = next == here ? 1.0 : -glm::dot(glm::cross(step, other), facet.normal) / length(step);
       const bool farther = glm::dot(other, other) > glm::dot(step, step);
       if (next == here || right > tolerance || (right > -tolerance && farther && glm::dot(other, step) > 0.0)) next = i;
@@ -101,7 +103,7 @@ std::vector<int> loop_of(std::span<const Vec3> points, const Facet& facet, doubl
     if (next == start) return loop;
     here = next;
   }
-  return {};  // never came back
+  return {};  // the loop did not close
 }
 
 void add_faces(std::span<const Vec3> points, const std::vector<Facet>& facets, double tolerance, Polyhedron& out) {
@@ -112,9 +114,9 @@ void add_faces(std::span<const Vec3> points, const std::vector<Facet>& facets, d
   }
 }
 
-// Finds edges by their two faces; false where the faces do not close.
+// Finds edges by their two faces. Returns false if the faces do not form a closed surface.
 bool add_edges(Polyhedron& out) {
-  std::map<std::pair<int, int>, int> face_of;  // by the edge as the face walks it
+  std::map<std::pair<int, int>, int> face_of;  // by the edge, in the direction of the face's loop
   for (std::size_t f = 0; f < out.faces.size(); ++f) {
     const Polyhedron::Face& face = out.faces[f];
     for (int i = 0; i < face.count; ++i) {
@@ -130,7 +132,7 @@ bool add_edges(Polyhedron& out) {
   return true;
 }
 
-// Keeps the points that are corners, seen from their mean.
+// Keeps only the points that are corners, relative to their mean.
 void add_corners(std::span<const Vec3> points, Polyhedron& out) {
   std::vector<int> index(points.size(), -1);
   for (const int i : out.loops) index[at(i)] = 0;
@@ -146,7 +148,7 @@ void add_corners(std::span<const Vec3> points, Polyhedron& out) {
   for (Vec3& corner : out.corners_m) corner -= out.center_m;
 }
 
-// Corners, edges and faces of one closed surface: Euler's formula.
+// Checks by Euler's formula that corners, edges and faces form one closed surface.
 bool is_closed(const Polyhedron& p) {
   return p.faces.size() >= 4 && p.corners_m.size() + p.faces.size() == p.edges.size() + 2;
 }
@@ -178,10 +180,11 @@ Polyhedron convex_polyhedron(std::span<const Vec3> points_m) {
   const double extent = extent_of(points_m);
   const std::vector<Vec3> points = without_repeats(points_m, 1e-12 * extent);
   if (points.size() < 4) return {};
-  // A facet must count as one plane for every three of its points. If it does not, a wider tolerance may do.
+  // Any three points of a facet must give the same plane. If they do not, a wider tolerance is tried.
   for (double tolerance = 1e-12; tolerance < 2e-9; tolerance *= 10.0) {
     Polyhedron out;
-    const double sliver = 1e-15 / tolerance * extent * extent;  // its plane is 1e-15 extent / sine off at the far end
+    // Rounding tilts the plane of a smaller triangle too much.
+    const double sliver = 1e-15 / tolerance * extent * extent;
     const std::vector<Facet> facets = facets_of(points, tolerance * extent, sliver);
     add_faces(points, facets, tolerance * extent, out);
     if (!add_edges(out)) continue;

@@ -22,7 +22,7 @@ struct Polyhedron {
     std::array<int, 2> faces{};
     bool operator==(const Edge&) const = default;
   };
-  Vec3 center_m{0.0};           // the mean of the corners, so inside
+  Vec3 center_m{0.0};           // the mean of the corners, which is inside
   std::vector<Vec3> corners_m;  // seen from the centre
   std::vector<Face> faces;
   std::vector<int> loops;
@@ -35,8 +35,8 @@ struct Polyhedron {
 };
 
 // Returns the hull of the points. Points inside of the solid, of a face or of an edge are not corners. It has no faces
-// if the points span no solid: fewer than four, in one plane, or so nearly in one plane that doubles cannot tell. At
-// most kMaxHullPoints points.
+// if the points span no solid: fewer than four, or all in one plane within the precision of doubles. At most
+// kMaxHullPoints points.
 Polyhedron convex_polyhedron(std::span<const Vec3> points_m);
 
 // Returns the reason why the points cannot be a ConvexHull; "" if they can.

@@ -9,8 +9,8 @@ namespace contort {
 
 namespace {
 
-constexpr int kRings = 5;      // of a hemisphere
-constexpr int kSegments = 16;  // around
+constexpr int kRings = 5;      // rings of a hemisphere
+constexpr int kSegments = 16;  // segments around the axis
 
 Sphere mirror(const Sphere& s) { return {mirror_point(s.center_m), s.radius_m}; }
 Capsule mirror(const Capsule& c) { return {mirror_point(c.a_m), mirror_point(c.b_m), c.radius_m}; }
@@ -40,7 +40,7 @@ void add_quad(Triangles& out, const Vec3& a, const Vec3& b, const Vec3& c, const
   add_triangle(out, a, c, d);
 }
 
-// Sines and cosines of all rings and of all directions around: each corner of a capsule would ask for two of them.
+// Sines and cosines of all rings and segments, computed once because each corner of a capsule needs two of them.
 struct CapsuleAngles {
   std::array<det::SinCos, 2 * kRings - 1> tilts;
   std::array<det::SinCos, kSegments> turns;
@@ -58,14 +58,14 @@ const CapsuleAngles& capsule_angles() {
   return angles;
 }
 
-// A capsule as rings of latitude; ring normals are exact, so that it looks round.
+// A capsule as rings of latitude. The normals of rings are exact, so that it looks round.
 Triangles tessellate_capsule(const Capsule& c) {
   const CapsuleAngles& angles = capsule_angles();
   const Vec3 up = unit_or(c.b_m - c.a_m, Vec3(0, 1, 0));
   const Vec3 side = perpendicular(up);
   const Vec3 front = glm::cross(side, up);
   const auto normal = [&](int ring, int segment) {
-    const int step = ring < kRings ? ring : ring - 1;  // the two rings at the equator share their normals
+    const int step = ring < kRings ? ring : ring - 1;  // the two rings at the equator have the same normals
     const det::SinCos& tilt = angles.tilts[static_cast<std::size_t>(step)];
     const det::SinCos& turn = angles.turns[static_cast<std::size_t>(segment % kSegments)];
     return tilt.sin * up + tilt.cos * (turn.cos * side + turn.sin * front);

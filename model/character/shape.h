@@ -30,12 +30,12 @@ struct Box {
 
 inline constexpr int kMaxHullPoints = 64;
 
-struct ConvexHull {  // The smallest convex solid that holds all of the points: 4 to kMaxHullPoints, not in one plane.
+struct ConvexHull {  // The smallest convex solid that contains all points: 4 to kMaxHullPoints, not in one plane.
   std::vector<Vec3> points_m;
   bool operator==(const ConvexHull&) const = default;
 };
 
-struct TriangleMesh {  // Drawn only, never a collider.
+struct TriangleMesh {  // Only drawn, never a collider.
   std::vector<Vec3> positions_m;
   std::vector<int> indices;  // Three to a triangle, counter-clockwise seen from outside.
   bool operator==(const TriangleMesh&) const = default;
@@ -50,7 +50,7 @@ MeshShape mirrored(const MeshShape& shape);
 // Returns the same shape for drawing.
 MeshShape as_mesh(const ColliderShape& shape);
 
-// The shape's triangles, flat shaded: three consecutive entries are one triangle, with its outward normal each.
+// The shape's triangles, flat shaded: three consecutive entries are one triangle, each with its outward normal.
 struct Triangles {
   std::vector<Vec3> positions_m;
   std::vector<Vec3> normals;

@@ -1,6 +1,6 @@
-// CONTORT_ASSERT is for mistakes of our own code, one of three kinds of errors. Bad input is an Issue (result.h); a
-// fault in the animation is a Finding (checks). Asserts are active in every build preset except `release`, in which
-// the expression is not evaluated.
+// CONTORT_ASSERT reports mistakes of our own code, one of three kinds of errors. Bad input is an Issue (result.h); a
+// fault in the animation is a Finding (checks). Asserts are active in every build preset except `release`, which does
+// not evaluate the expression.
 #pragma once
 
 #ifdef CONTORT_ASSERTS

@@ -21,7 +21,7 @@ bool write_all(int descriptor, std::string_view bytes) {
     if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
     if (written >= 0 || errno == EINTR) continue;
     if (errno != EAGAIN) return false;
-    // The other side set the pipe to "non-blocking" and is slower than we are.
+    // The other end made the pipe non-blocking and reads slower than we write.
     pollfd room{descriptor, POLLOUT, 0};
     ::poll(&room, 1, -1);
   }

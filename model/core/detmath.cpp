@@ -28,7 +28,7 @@ constexpr double kLn2High = 0x1.62e42fef00000p-1;
 constexpr double kLn2Low = 0x1.473de6af278edp-34;
 constexpr double kOneOverLn2 = 1.44269504088896340736;
 
-// atan(i / 8), i = 0..8
+// atan(i / 8) for i = 0..8.
 constexpr std::array<double, 9> kAtanEighths = {0.0,
                                                 0x1.fd5ba9aac2f6ep-4,
                                                 0x1.f5b75f92c80ddp-3,
@@ -41,12 +41,12 @@ constexpr std::array<double, 9> kAtanEighths = {0.0,
 
 constexpr double factorial(int n) { return n < 2 ? 1.0 : n * factorial(n - 1); }
 
-// Sine and cosine at once, as processors have room for two in one register.
+// A pair of sine and cosine, which are computed at once because a register has room for two.
 constexpr SinCos operator+(const SinCos& a, const SinCos& b) { return {a.sin + b.sin, a.cos + b.cos}; }
 constexpr SinCos operator*(const SinCos& a, double x) { return {a.sin * x, a.cos * x}; }
 
-// c[0] + c[1] x + c[2] x^2 + …, by Estrin's scheme: neighbours are joined in pairs, then the pairs in x^2. Half of
-// Horner's chain of dependent operations at every step, which is what costs time here.
+// c[0] + c[1] x + c[2] x^2 + …, by Estrin's scheme: neighbours are joined in pairs, then the pairs in x^2. It has half
+// as many dependent operations as Horner's scheme at every step, and these take the time here.
 template <class Value, std::size_t N>
 Value polynomial(double x, const std::array<Value, N>& c) {
   if constexpr (N == 1) {
@@ -104,7 +104,8 @@ SinCos sincos(double x_rad) {
   const double half_r2 = 0.5 * r2;
   const double w = 1.0 - half_r2;
   const double c = w + (((1.0 - w) - half_r2) + (r2 * r2 * sum.cos - r * tail));
-  // By quarter turns (s, c), (c, -s), (-s, -c), (-c, s), on the bits: no processor foresees branches on angles.
+  // Selects by quarter turns (s, c), (c, -s), (-s, -c), (-c, s) with bit operations, because processors cannot predict
+  // branches on angles.
   const auto quarter = static_cast<std::uint64_t>(static_cast<std::int64_t>(k));
   const auto s_bits = std::bit_cast<std::uint64_t>(s), c_bits = std::bit_cast<std::uint64_t>(c);
   const std::uint64_t exchange = (quarter & 1) != 0 ? s_bits ^ c_bits : 0;
@@ -114,7 +115,7 @@ SinCos sincos(double x_rad) {
 
 namespace {
 
-// Vectors of GCC and Clang: two fit the registers of every processor of ours.
+// Vector types of GCC and Clang: two numbers fit into one register of every supported processor.
 namespace twos {
 
 using Lanes [[gnu::vector_size(16)]] = double;
@@ -146,7 +147,7 @@ bool are_usual(std::span<const double> x_rad) {
 }
 
 #ifdef __x86_64__
-// As many as four angles, the others of four being 0.
+// Computes at most four angles; the missing ones of four are 0.
 void sincos_of_few(std::span<const double> x_rad, std::span<SinCos> out) {
   std::array<double, avx2::kLanes> all_rad{};
   std::array<SinCos, avx2::kLanes> all;
@@ -178,14 +179,15 @@ double atan2(double y, double x) {
   if (std::isnan(x) || std::isnan(y)) return kNaN;
   const double ax = std::fabs(x);
   const double ay = std::fabs(y);
-  if (ay == 0.0 && (x >= 0.0 || ax == 0.0)) return 0.0;  // the angle between rotations that are equal, mostly
+  if (ay == 0.0 && (x >= 0.0 || ax == 0.0)) return 0.0;  // common case: the angle between equal rotations
   const bool steep = ay > ax;
   double angle = 0.0;
   if (ax == kInfinity && ay == kInfinity) {
     angle = 0.5 * kHalfPi;
   } else {
     angle = atan_unit(steep ? ax / ay : ay / ax);
-    if (steep) angle = kHalfPi - (angle - kHalfPiTail);  // the tail goes to the smaller number, or it is rounded off
+    // The tail is added to the smaller number, where it is not rounded off.
+    if (steep) angle = kHalfPi - (angle - kHalfPiTail);
   }
   if (x < 0.0) angle = 2.0 * kHalfPi - (angle - 2.0 * kHalfPiTail);
   return y < 0.0 ? -angle : angle;
@@ -210,7 +212,7 @@ double exp(double x) {
   const double k = std::floor(x * kOneOverLn2 + 0.5);
   const double r = (x - k * kLn2High) - k * kLn2Low;
   const double value = 1.0 + (r + r * r * polynomial(r, kExp));
-  // Two steps, so that neither factor over- or underflows on the way to a result that does not.
+  // In two steps, so that no factor over- or underflows if the result does not.
   const int half = static_cast<int>(k) / 2;
   return value * power_of_two(half) * power_of_two(static_cast<int>(k) - half);
 }

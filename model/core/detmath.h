@@ -14,8 +14,8 @@ struct SinCos {
   double cos;
 };
 
-// |error| <= 5e-16 for |x| <= 1e4 rad. Beyond 1e9 rad, and for infinities and NaN, both are NaN: an angle that
-// large is a fault to be found, not to be folded quietly.
+// |error| <= 5e-16 for |x| <= 1e4 rad. Beyond 1e9 rad, and for infinities and NaN, both are NaN: such an angle is a
+// fault that must be found, so it is not wrapped.
 SinCos sincos(double x_rad);
 // Computes sincos of each angle, with the same bits and in less time.
 void sincos(std::span<const double> x_rad, std::span<SinCos> out);
@@ -25,7 +25,7 @@ double cos(double x_rad);
 // Angle of the point (x, y), in [-pi, pi]; atan2(0, 0) is 0. |error| <= 5e-16 rad. NaN in, NaN out.
 double atan2(double y, double x);
 
-// Arguments outside [-1, 1] are clamped, so rounding never makes a NaN. |error| <= 1e-15 rad. NaN in, NaN out.
+// Arguments outside [-1, 1] are clamped, so rounding never gives NaN. |error| <= 1e-15 rad. NaN gives NaN.
 double acos(double x);
 double asin(double x);
 

@@ -12,13 +12,13 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr std::size_t kShown = 40;  // of the bytes of an unknown kind
+constexpr std::size_t kShown = 40;  // greatest number of bytes of an unknown file in a message
 
 struct Kind {
   std::size_t at;
   std::string_view magic;
   std::string_view name;
-  std::string_view advice{};  // a clause about what to do, for kinds that people take for motion
+  std::string_view advice{};  // a clause with a remedy, for kinds that people take for motion
 };
 
 constexpr std::string_view kExport = "export it as glTF (.glb), as Blender and most other editors can";
@@ -29,7 +29,8 @@ constexpr std::string_view kTables =
     "contort check FILE.csv --character NAME judges values of joints, with a column of times";
 constexpr std::string_view kDownload = "the download went wrong: fetch the file itself";
 
-// From the formats' own specifications, and file(1). Longer marks come before those that they begin with.
+// The marks come from the formats' specifications and from file(1). A longer mark comes before a shorter one with the
+// same beginning.
 constexpr Kind kKinds[] = {{0, "\x89PNG\r\n\x1a\n"sv, "a PNG image"},
                            {0, "\xff\xd8\xff"sv, "a JPEG image"},
                            {0, "GIF8"sv, "a GIF image"},
@@ -83,12 +84,12 @@ constexpr Kind kKinds[] = {{0, "\x89PNG\r\n\x1a\n"sv, "a PNG image"},
                            {0, "\xff\xfe"sv, "a text in UTF-16, where UTF-8 is needed"},
                            {0, "\xfe\xff"sv, "a text in UTF-16, where UTF-8 is needed"}};
 
-// By what their first entry is.
+// Archives are told apart by their first entry.
 constexpr Kind kZip = {0, "PK\x03\x04"sv, "a ZIP archive", kUnpack};
 constexpr Kind kUsdz = {0, {}, "a USD scene (USDZ)", kExport};
 constexpr Kind kNpz = {0, {}, "a ZIP archive of NumPy arrays (NPZ)", kNumbers};
 
-// By the element at the root of a text in XML or HTML.
+// Kinds by the root element of a text in XML or HTML.
 constexpr Kind kElements[] = {{0, "<html", "an HTML page", kDownload},
                               {0, "<!doctype html", "an HTML page", kDownload},
                               {0, "<head", "an HTML page", kDownload},
@@ -97,7 +98,7 @@ constexpr Kind kElements[] = {{0, "<html", "an HTML page", kDownload},
                               {0, "<robot", "a robot in URDF", kRobot},
                               {0, "<sdf", "a robot in SDF", kRobot},
                               {0, "<mujoco", "a robot in MJCF (MuJoCo)", kRobot}};
-// By the endings of their names, where they hold something else.
+// Kinds by the ending of the file's name, for contents that are not recognised.
 struct Named {
   std::string_view ending;
   std::string_view name;
@@ -127,7 +128,7 @@ std::string_view without_blanks(std::string_view text) {
   return text;
 }
 
-// The text from the element at the root on: after what XML allows before it. Empty where no markup begins the text.
+// The text from the root element on, after declarations and comments. Empty if the text does not begin with markup.
 std::string_view root_element(std::string_view text) {
   text = without_blanks(text);
   while (text.starts_with("<?") || text.starts_with("<!--")) {
@@ -142,14 +143,14 @@ const Kind* kind_of_markup(std::string_view text) {
   const std::string_view root = root_element(text);
   for (const Kind& kind : kElements)
     if (begins_with(root, kind.magic)) return &kind;
-  // A document type may stand before the root, which is then somewhere in the beginning.
+  // A document type may stand before the root, so the root is searched for in the text.
   const bool is_xml = begins_with(without_blanks(text), "<?xml") || begins_with(root, "<!doctype");
   for (const Kind& kind : kElements)
     if (is_xml && text.find(kind.magic) != text.npos) return &kind;
   return is_xml ? &kXml : nullptr;
 }
 
-// The name of the first entry: its length is at byte 26, and itself at byte 30 (PKWARE's APPNOTE, 4.3.7).
+// The first entry's name begins at byte 30; its length is at byte 26 (PKWARE's APPNOTE, 4.3.7).
 const Kind& kind_of_zip(std::string_view bytes) {
   if (bytes.size() < 30) return kZip;
   const auto byte = [&](std::size_t at) { return static_cast<std::size_t>(static_cast<unsigned char>(bytes[at])); };
@@ -163,7 +164,7 @@ bool is_row_of_numbers(std::string_view line) {
          line.find_first_not_of("0123456789+-.eE,; \t\r") == line.npos;
 }
 
-// A line of names or numbers, and a line of numbers with as many separators.
+// Returns true if a line of names or numbers is followed by a line of numbers with as many separators.
 bool is_table(std::string_view text) {
   const std::size_t end = text.find('\n');
   if (end == text.npos || text.find_first_of("{[<") < end) return false;

@@ -27,7 +27,7 @@ bool has_advice(std::string_view bytes);
 // unknown.
 std::optional<Issue> other_kind(const std::string& path, std::string_view bytes, const std::string& expected);
 
-// Returns such an issue for a file of another kind than expected. If the kind is unknown, the text tells the ending of
+// Returns such an issue for a file of another kind than expected. If the kind is unknown, the text quotes the ending of
 // the file's name and its first bytes.
 Issue unknown_kind(const std::string& path, std::string_view bytes, const std::string& expected);
 

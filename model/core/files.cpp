@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr int kWaitForWriter_ms = 1000;
 constexpr int kLongestSilence_ms = 10'000;
 
-// Without blocking: the open call alone would wait where a pipe has no writer. A terminal does not become ours.
+// Non-blocking, because opening a pipe without a writer would wait. O_NOCTTY keeps a terminal from becoming ours.
 constexpr int kReadFlags = O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
 
 Issue too_large(const std::string& path, std::size_t max_bytes) {
@@ -38,7 +38,7 @@ Issue wrong_kind(const std::string& path, unsigned mode) {
   return {"file.unreadable", "", S_ISDIR(mode) ? what : what + ", expected a plain file"};
 }
 
-// All that comes until the end; the issue where that is more than max_bytes or cannot be read.
+// Reads everything to the end. Returns an issue if that is more than max_bytes or cannot be read.
 std::optional<Issue> read_rest(int file, const std::string& path, std::size_t max_bytes, std::string& bytes) {
   char block[65536];
   for (;;) {
@@ -51,8 +51,8 @@ std::optional<Issue> read_rest(int file, const std::string& path, std::size_t ma
   }
 }
 
-// Looks twice, because a path may lead elsewhere a moment later: the first look keeps us from touching devices, the
-// second one, at the opened file, is the one that counts.
+// Checks the kind twice, because a path may change in between. The first check avoids opening devices; the second one,
+// of the opened file, decides.
 Result<Descriptor> open_of_kind(const std::string& path, bool (*is_wanted)(unsigned mode), struct stat& found) {
   if (::stat(path.c_str(), &found) != 0) return unreadable(path);
   if (!is_wanted(found.st_mode)) return wrong_kind(path, found.st_mode);
@@ -65,7 +65,7 @@ Result<Descriptor> open_of_kind(const std::string& path, bool (*is_wanted)(unsig
 // The reason why a pipe cannot be read right now.
 enum class Silence { no_writer_yet, writer_is_slow };
 
-// False where nothing happened in the time that this silence may take.
+// Returns false if nothing happened in the longest time for this silence.
 bool wait_for_bytes(int pipe, Silence silence) {
   pollfd ready{pipe, POLLIN, 0};
   const int longest = silence == Silence::no_writer_yet ? kWaitForWriter_ms : kLongestSilence_ms;
@@ -78,11 +78,11 @@ Issue silent(const std::string& path, Silence silence) {
   return {"file.unreadable", "", "cannot read " + path + ": " + why};
 }
 
-// The system says "end of file" of a pipe both before the first writer has come and after the last one has left.
+// The system reports the end of a pipe both before the first writer opens it and after the last one closes it.
 Result<std::string> read_pipe(int pipe, const std::string& path, std::size_t max_bytes) {
   std::string bytes;
-  bool was_there = false;  // a writer
-  bool waited = false;     // for the first one
+  bool was_there = false;  // a writer was there
+  bool waited = false;     // for the first writer
   for (;;) {
     char block[65536];
     const ssize_t got = ::read(pipe, block, sizeof block);
@@ -126,12 +126,12 @@ std::string reason(const std::string& path) {
   return std::strerror(error);
 }
 
-// A new file, and never one that somebody else has put there, or a link to one.
+// Makes a new file. It never opens an existing one, or a link that somebody else made.
 Descriptor make_new(const std::string& path) {
   constexpr int kFlags = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
   const int file = ::open(path.c_str(), kFlags, 0666);
   if (file >= 0 || errno != EEXIST) return Descriptor(file);
-  ::unlink(path.c_str());  // a killed process of the same number has left it
+  ::unlink(path.c_str());  // left by a killed process with the same number
   return Descriptor(::open(path.c_str(), kFlags, 0666));
 }
 
@@ -147,7 +147,7 @@ bool fill(Descriptor& file, std::string_view bytes, const struct stat* old) {
   return write_all(file.number(), bytes) && file.close();
 }
 
-// Whether the path stands in the text as a word of its own: "a" is in every text.
+// Returns true if the path occurs in the text as a separate word: the letter "a" occurs in every text.
 bool names(const std::string& text, const std::string& path) {
   const auto ends = [&](std::size_t at) { return at >= text.size() || std::strchr(" :;,", text[at]) != nullptr; };
   for (std::size_t at = text.find(path); at != text.npos; at = text.find(path, at + 1))
@@ -204,7 +204,7 @@ Result<Done> write_file(const std::string& path, std::string_view bytes) {
   const bool was_there = ::lstat(path.c_str(), &old) == 0;
   if (was_there && !S_ISREG(old.st_mode) && !S_ISLNK(old.st_mode))
     return unwritable(path, "it is " + std::string(kind_of_mode(old.st_mode)));
-  // The process id keeps two processes that write the same folder apart; the rename is atomic within one folder.
+  // The process id separates two processes that write into the same folder. The rename is atomic within a folder.
   const std::string temporary = path + "." + std::to_string(::getpid()) + ".part";
   Descriptor file = make_new(temporary);
   const bool replaces = was_there && S_ISREG(old.st_mode);

@@ -1,4 +1,4 @@
-// Reads whole files, and writes them so that nobody ever sees half of one.
+// Reads whole files, and writes them so that other programs see either the old or the complete new file.
 #pragma once
 
 #include <string>
@@ -12,9 +12,9 @@ namespace contort {
 // forever and a device would never end, so both are refused at once, and so are folders and sockets.
 Result<std::string> read_file(const std::string& path, std::size_t max_bytes = std::size_t{256} << 20);
 
-// Reads a file that a user names on the command line, which may be a pipe such as <(command) or /dev/stdin: a pipe is
-// read to its end. A pipe that no program writes to is refused after a second, and one that is silent for ten seconds
-// is given up.
+// Reads a file that a user names on the command line, which may be a pipe such as <(command) or /dev/stdin. A pipe is
+// read to its end. It is refused if no program opens it for writing within a second, or if it gives nothing for ten
+// seconds.
 Result<std::string> read_named_file(const std::string& path, std::size_t max_bytes);
 
 // Returns at most this many first bytes of a plain file; "" if it cannot be read.
@@ -29,13 +29,13 @@ Result<Done> write_file(const std::string& path, std::string_view bytes);
 // Makes an issue with the code file.unwritable, the reason and the file's name.
 Issue unwritable(const std::string& path, const std::string& why);
 
-// Makes the folder and those above it; code file.unwritable.
+// Makes the folder and its parents; code file.unwritable.
 Result<Done> make_folder(const std::string& path);
 
 // Returns the kind of a file by stat's st_mode: "a folder", "a named pipe (FIFO)", …
 std::string_view kind_of_mode(unsigned mode);
 
-// Returns the issue with the file's name in front of its text, unless the text names it already.
+// Returns the issue with the file's name in front of its text, unless the text contains it already.
 Issue about_file(const std::string& path, Issue issue);
 
 }  // namespace contort

@@ -1,4 +1,4 @@
-// A function that is called by reference, as std::function_ref of C++26: it owns nothing and allocates nothing.
+// A reference to a function, like std::function_ref of C++26: it owns nothing and allocates nothing.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@ namespace contort {
 template <class Signature>
 class FunctionRef;
 
-// The function must outlive the reference: pass a named lambda, or one that is made in the same call.
+// The function must outlive the reference: pass a named lambda, or one that is created in the call itself.
 template <class Result, class... Arguments>
 class FunctionRef<Result(Arguments...)> {
  public:

@@ -14,7 +14,7 @@ constexpr std::string_view kHexDigits = "0123456789abcdef";
 }  // namespace
 
 void Hash64::add(double value) {
-  if (value == 0.0) value = 0.0;  // -0
+  if (value == 0.0) value = 0.0;  // -0 becomes 0
   add(std::isnan(value) ? kCanonicalNaN : std::bit_cast<std::uint64_t>(value));
 }
 

@@ -13,9 +13,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kMostNameBytes = 255;  // what file systems take
+constexpr std::size_t kMostNameBytes = 255;  // limit of file systems
 
-// Names are printed as they are, and may hold anything.
+// Makes a name safe for messages, because it may contain anything.
 std::string printable_name(std::string_view name) {
   std::string text(name.substr(0, 200));
   for (char& c : text)
@@ -32,7 +32,7 @@ bool has_only_file_names(std::string_view name) {
   }
 }
 
-// For an entry whose own folder stays inside. Only a link is asked for its end.
+// Returns true if the entry is a link that leads out of the folder. The entry's own folder must be inside.
 bool is_link_out(const std::string& folder, const fs::path& entry) {
   std::error_code error;
   if (!fs::is_symlink(fs::symlink_status(entry, error))) return false;
@@ -92,7 +92,7 @@ Result<std::string> read_beside(const std::string& path, std::size_t max_bytes) 
 Result<Done> write_inside(const std::string& folder, const std::string& name, std::string_view bytes) {
   const Result<std::string> path = place_inside(folder, name);
   if (!path) return path.issue();
-  // The name under which write_file begins: a link of this name would be written through.
+  // Removes the temporary file of write_file first: if it were a link, the data would be written through it.
   ::unlink((*path + "." + std::to_string(::getpid()) + ".part").c_str());
   return write_file(*path, bytes);
 }

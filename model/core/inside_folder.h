@@ -12,8 +12,8 @@
 
 namespace contort {
 
-// Returns true if the text can be the name of one entry of a folder and nothing else: 1 to 255 bytes, neither "." nor
-// "..", no "/" and no "\", no zero byte and no other control character.
+// Returns true if the text can only be the name of an entry of a folder: 1 to 255 bytes, neither "." nor "..", without
+// "/", "\", zero bytes and other control characters.
 bool is_file_name(std::string_view text);
 
 // Refuses a path below the folder if it, or a folder on its way, is a symbolic link that leads out of the folder or
@@ -22,20 +22,20 @@ bool is_file_name(std::string_view text);
 Result<Done> check_inside(const std::string& folder, const std::string& path);
 
 // Returns FOLDER/NAME, to be written, renamed or removed. NAME is a file name, or several with "/" between them. The
-// last entry may be any link, because none of these three operations follows it. Codes file.bad_name, file.outside.
+// last entry may be any link, because these three operations do not follow it. Codes file.bad_name, file.outside.
 Result<std::string> place_inside(const std::string& folder, const std::string& name);
 
 // Reads FOLDER/NAME, which must be a regular file; here the last entry must stay in the folder, too. Codes
 // file.bad_name, file.outside and those of read_file.
 Result<std::string> read_inside(const std::string& folder, const std::string& name, std::size_t max_bytes);
 
-// Reads the file at `path`, which was found by listing its folder, in the same way.
+// Does the same for the file at `path`, which was found by listing its folder.
 Result<std::string> read_beside(const std::string& path, std::size_t max_bytes);
 
 // Calls write_file for FOLDER/NAME. Codes file.bad_name, file.outside, file.unwritable.
 Result<Done> write_inside(const std::string& folder, const std::string& name, std::string_view bytes);
 
-// Returns true if one of the functions above refused it.
+// Returns true if one of the functions above refused the name or path.
 bool is_outside(const Issue& issue);
 
 }  // namespace contort

@@ -58,7 +58,7 @@ std::string allowed_text(const Rule& rule) {
   return "";
 }
 
-// The parser's message, which quotes the input raw and whole: a megabyte of one number, or bytes that are no UTF-8.
+// Makes the parser's message safe. It quotes the input: up to a megabyte for one number, or bytes that are not UTF-8.
 std::string plain(const std::string& message) {
   std::string text = message.substr(0, 300);
   for (char& c : text)
@@ -68,10 +68,11 @@ std::string plain(const std::string& message) {
 
 std::string range_text(const Rule& rule) { return "[" + shortest(rule.low) + ", " + shortest(rule.high) + "]"; }
 
-constexpr std::size_t kMaxKeys = 100'000;  // of an object: those that count what a run met have thousands
+// Greatest number of keys of an object; objects with counts of a run have thousands.
+constexpr std::size_t kMaxKeys = 100'000;
 
-// Looks at a document before it becomes a tree: depth, number of values, duplicate keys. Not as a callback of the
-// parser: with one, each object of a list costs a look at all objects before it.
+// Checks a document before the tree is built: depth, number of values, duplicate keys. A callback of the parser would
+// be too slow: with one, each object of a list checks all objects before it.
 class DocumentGuard final : public Json::json_sax_t {
  public:
   bool null() override { return count(); }
@@ -110,7 +111,7 @@ class DocumentGuard final : public Json::json_sax_t {
 
   int depth_ = 0;
   std::size_t values_ = 0;
-  std::vector<std::set<std::string>> keys_;  // of the objects that are open
+  std::vector<std::set<std::string>> keys_;  // keys of the open objects
   Issue issue_;
 };
 
@@ -174,7 +175,7 @@ bool read_number(const Json& in, const Rule& rule, double& out, ReadContext& con
   const double value = in.get<double>();
   if (!(value >= rule.low && value <= rule.high) || !std::isfinite(value))
     return context.fail("out_of_range", "found " + shortest(value) + ", allowed is " + range_text(rule)), false;
-  out = value == 0.0 ? 0.0 : value;  // -0 is 0
+  out = value == 0.0 ? 0.0 : value;  // -0 becomes 0
   return true;
 }
 
@@ -262,7 +263,7 @@ std::string hex_pattern(const Rule& rule) {
   return rule.digits == 0 ? "^[0-9a-f]*$" : "^[0-9a-f]{" + std::to_string(rule.digits) + "}$";
 }
 
-// Without "." and "..", where neither a beginning nor an end keeps them out.
+// The pattern excludes "." and ".." unless a fixed beginning or ending does.
 std::string file_pattern(const Rule& rule) {
   std::string end(rule.ends);
   if (end.starts_with('.')) end.insert(0, "\\");

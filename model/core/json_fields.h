@@ -207,7 +207,8 @@ class FieldReader {
 };
 
 template <class S>
-class FieldWriter {  // Fields at their default are left out: files stay short, and a new field changes no old text.
+// Fields at their default are left out, so that files stay short and a new field changes no old text.
+class FieldWriter {
  public:
   explicit FieldWriter(const S& value) : value_(value) {}
   template <class T>
@@ -250,8 +251,7 @@ class FieldSchema {
   Json required_ = Json::array();
 };
 
-// Not inline, so that `extern template` prevents a large struct from being compiled again for each struct that contains
-// it.
+// Not inline, so that `extern template` keeps a large struct from being compiled again in each struct that contains it.
 template <class S>
 struct Codec {
   static void read(const Json& in, const Rule&, S& out, ReadContext& context);
@@ -281,7 +281,7 @@ Json Codec<S>::schema(const Rule&) {
   return schema.take();
 }
 
-// A variant of structs; each writes its own `constant("type", …)` and names it by type_name(const T*).
+// A variant of structs. Each writes its own `constant("type", …)`; type_name(const T*) returns its name.
 template <class... Ts>
 struct Codec<std::variant<Ts...>> {
   using V = std::variant<Ts...>;
@@ -311,7 +311,7 @@ struct Codec<std::variant<Ts...>> {
 
 // ---- whole documents
 
-// Reads a document; fields that the text does not have keep their values in `value`.
+// Reads a document. Fields that the text does not have keep their values in `value`.
 template <class S>
 Result<S> read_tree(const Json& tree, std::string_view area, S value = {}) {
   ReadContext context(area);
@@ -333,7 +333,7 @@ std::string write_canonical(const S& value) {
   return Codec<S>::write(value, Rule{}).dump();
 }
 
-// Prints the value for people: indented.
+// Prints the value with indentation, for people.
 template <class S>
 std::string write_pretty(const S& value) {
   return Codec<S>::write(value, Rule{}).dump(2) + "\n";

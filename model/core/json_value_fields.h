@@ -33,7 +33,7 @@ struct Rule {
   Text key_text = Text::name;    // kind of a map's keys
   std::size_t digits = 0;        // the length of a hex text, if it is fixed
   std::string_view begins = "";  // the beginning of a file's name; without special characters of patterns
-  std::string_view ends = "";    // the ending of a file's name; the same
+  std::string_view ends = "";    // the ending of a file's name; without special characters of patterns
   bool required = false;
   bool may_be_empty = false;  // for a text
   bool may_be_nan = false;    // for a number; NaN is written as the text "nan", because JSON has none
@@ -44,7 +44,7 @@ class ReadContext {
  public:
   explicit ReadContext(std::string_view area) : area_(area) {}
   bool ok() const { return issue_.code.empty(); }
-  void fail(std::string_view code, std::string text);  // at the present place; only the first failure is kept
+  void fail(std::string_view code, std::string text);  // at the present position; only the first failure is kept
   void push(std::string_view token);
   void pop() { path_.pop_back(); }
   Issue take_issue() { return std::move(issue_); }
@@ -62,7 +62,7 @@ Result<Json> parse_document(std::string_view text);
 // Functions that all visitors share. The .cpp has them once, instead of in every template.
 std::string kind_of(const Json& value);       // "a text", "a number" … for messages
 std::string quoted(const std::string& text);  // for messages: bounded, without control characters
-std::string shortest(double value);           // as JSON writes it
+std::string shortest(double value);           // in the form that JSON uses
 // Returns the value on one line; bytes that are not UTF-8 become the replacement character.
 std::string compact_text(const Json& value);
 bool read_number(const Json& in, const Rule& rule, double& out, ReadContext& context);

@@ -12,7 +12,7 @@ Vec3 unit_or(const Vec3& v, const Vec3& fallback) {
 }
 
 Vec3 perpendicular(const Vec3& u) {
-  // Crossing with the axis least aligned with u keeps the result well away from zero.
+  // The cross product with the axis that is least aligned with u is well away from zero.
   const Vec3 a = glm::abs(u);
   const Vec3 helper = a.x <= a.y && a.x <= a.z ? Vec3(1, 0, 0) : a.y <= a.z ? Vec3(0, 1, 0) : Vec3(0, 0, 1);
   return unit_or(glm::cross(u, helper), Vec3(1, 0, 0));
@@ -49,7 +49,7 @@ double angle_towards(const Vec3& axis, const Vec3& v, const Vec3& direction) {
 Quat shortest_arc(const Vec3& from, const Vec3& to) {
   const double w = 1.0 + glm::dot(from, to);
   if (w < 1e-9) {
-    // Nearly opposite: 1 + dot has lost its digits. Half a turn to -from, which is near enough to `to` for the rest.
+    // For nearly opposite vectors 1 + dot is too inexact. Half a turn to -from comes near enough to `to`.
     const Vec3 axis = perpendicular(from);
     return shortest_arc(-from, to) * Quat(0.0, axis.x, axis.y, axis.z);
   }
@@ -62,7 +62,7 @@ Quat slerp_short(const Quat& a, const Quat& b, double t) {
   const double sign = dot < 0.0 ? -1.0 : 1.0;
   double weight_a = 1.0 - t;
   double weight_b = t;
-  if (sign * dot < 1.0 - 1e-9) {  // nearer than that, the chord is the arc to double precision
+  if (sign * dot < 1.0 - 1e-9) {  // for smaller angles the chord equals the arc in double precision
     const double s = std::sqrt(1.0 - dot * dot);
     const double angle = det::atan2(s, sign * dot);
     weight_a = det::sin((1.0 - t) * angle) / s;

@@ -1,6 +1,6 @@
-// The types for space. Metres and radians; right-handed, +Y up, +Z forward, +X to the character's left (glTF). A name
-// such as `world_from_hand` maps hand coordinates to world coordinates, so that products read as a chain:
-// world_from_hand = world_from_arm * arm_from_hand.
+// The types for space. Metres and radians; right-handed, +Y up, +Z forward, +X to the character's left (glTF).
+// `world_from_hand` maps hand coordinates to world coordinates, so products read as a chain: world_from_hand =
+// world_from_arm * arm_from_hand.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace contort {
 
 using Vec3 = glm::dvec3;
-using Quat = glm::dquat;  // Constructed as (w, x, y, z). Unit length wherever it stands for a rotation.
+using Quat = glm::dquat;  // Constructed as (w, x, y, z). Unit length if it is a rotation.
 using Mat3 = glm::dmat3;
 
 inline constexpr double kPi = 3.14159265358979323846;
@@ -41,7 +41,7 @@ inline Rigid inverse(const Rigid& a_from_b) {
 
 inline double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
 
-// A rotation in a row of coordinates: w, x, y, z.
+// Reads a rotation from a row of coordinates: w, x, y, z.
 inline Quat quat_at(const double* q) { return {q[0], q[1], q[2], q[3]}; }
 
 // Returns the unit vector along v, or `fallback` if v is too short to have a direction (length below 1e-12).
@@ -60,7 +60,7 @@ Vec3 to_rotation_vector(const Quat& q);
 // The angle of the rotation q, short way, in [0, pi].
 double rotation_angle(const Quat& q);
 
-// The angle about the unit vector `axis` that turns v nearest to `direction`, in [-pi, pi].
+// The angle about the unit vector `axis` that turns v as near as possible to `direction`, in [-pi, pi].
 double angle_towards(const Vec3& axis, const Vec3& v, const Vec3& direction);
 
 // The smallest rotation that turns unit vector `from` to unit vector `to`; half a turn about a fixed
@@ -74,8 +74,8 @@ inline double minimum_jerk(double u) { return u * u * u * (10.0 + u * (6.0 * u -
 // Spherical interpolation along the shorter arc; t in [0, 1].
 Quat slerp_short(const Quat& a, const Quat& b, double t);
 
-// Returns the nearest multiple of 1 / steps_per_unit. It divides, so that the result is the double that prints
-// shortest.
+// Returns the nearest multiple of 1 / steps_per_unit. It divides, so that the result is the double with the shortest
+// text.
 inline double on_lattice(double value, double steps_per_unit) {
   return std::floor(value * steps_per_unit + 0.5) / steps_per_unit + 0.0;  // -0 becomes 0
 }

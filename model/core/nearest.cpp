@@ -22,7 +22,7 @@ std::string_view unquoted(std::string_view name) {
 }  // namespace
 
 int letters_apart(std::string_view a, std::string_view b) {
-  // Optimal string alignment: rows of the table for the first i - 2, i - 1 and i letters of a.
+  // Optimal string alignment. The rows of the table are for the first i - 2, i - 1 and i letters of a.
   std::vector<int> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = static_cast<int>(j);
   for (std::size_t i = 1; i <= a.size(); ++i) {

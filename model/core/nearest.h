@@ -1,4 +1,4 @@
-// Suggests the name that somebody probably meant.
+// Suggests the name that a user probably meant.
 #pragma once
 
 #include <span>
@@ -7,8 +7,8 @@
 
 namespace contort {
 
-// Returns the number of letters that must be inserted, deleted, replaced or swapped with the next one to make one
-// word of the other, ignoring case.
+// Returns the number of edits between two words, ignoring case: letters that are inserted, deleted, replaced or swapped
+// with the next one.
 int letters_apart(std::string_view a, std::string_view b);
 
 // Returns the nearest of the words, if at most a third of its letters differ; otherwise "".

@@ -19,21 +19,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostLinks = 40;  // in a row; as many as Linux follows
+constexpr int kMostLinks = 40;  // greatest number of successive links, as in Linux
 constexpr int kReaderTries = 40;
-constexpr useconds_t kReaderPause_us = 50'000;  // two seconds in all
+constexpr useconds_t kReaderPause_us = 50'000;  // pause between two tries; two seconds in all
 
-// The place that the bytes go to in the end.
+// The final place of the bytes.
 struct Target {
-  std::string named;    // by the user
-  std::string path;     // behind all symbolic links
-  int descriptor = -1;  // of this process, where the name means one: /dev/stdout is 1
-  unsigned mode = 0;    // of what is there; 0: nothing
+  std::string named;    // the name that the user gave
+  std::string path;     // the path with all symbolic links resolved
+  int descriptor = -1;  // number of a descriptor of this process, if the name means one: /dev/stdout is 1
+  unsigned mode = 0;    // mode of the existing file; 0: there is none
   bool is_plain() const { return mode == 0 || S_ISREG(mode); }
 };
 
-// N of /proc/SELF/fd/N, which is where /dev/stdout and /dev/fd/N lead; -1 for anything else. Opening it anew would
-// begin at the start of a file that standard output goes to, and replacing it would take the file away.
+// Returns N for /proc/SELF/fd/N, to which /dev/stdout and /dev/fd/N lead; -1 for any other path. Such a file is not
+// opened again, because writing would then begin at its start, and replacing it would detach it from standard output.
 int own_descriptor(const fs::path& folder, const std::string& name) {
   const std::string own = "/proc/" + std::to_string(::getpid()) + "/";
   if (!folder.string().starts_with(own) || folder.filename() != "fd") return -1;
@@ -42,7 +42,7 @@ int own_descriptor(const fs::path& folder, const std::string& name) {
   return error == std::errc{} && end == name.data() + name.size() ? number : -1;
 }
 
-// The folder that a name lies in, behind its links.
+// The folder of a name, with all links resolved.
 Result<fs::path> real_folder(const std::string& named, const fs::path& at) {
   std::error_code error;
   const fs::path folder = at.has_parent_path() ? at.parent_path() : fs::path(".");
@@ -69,7 +69,7 @@ Result<Target> follow(const std::string& named) {
     std::error_code error;
     const fs::path link = fs::read_symlink(at, error);
     if (error) return unwritable(named, error.message());
-    at = *folder / link;  // an absolute one stands for itself
+    at = *folder / link;  // an absolute link replaces the folder
   }
   return unwritable(named, "too many symbolic links");
 }
@@ -82,7 +82,7 @@ Result<Target> writable_target(const std::string& named) {
   return target;
 }
 
-// Without blocking: to open a pipe that nobody reads would wait for ever. A reader that is about to come has some time.
+// Opens without blocking, because opening a pipe without a reader would wait for ever. A reader has some time to come.
 Result<Descriptor> open_in_place(const Target& target, int flags) {
   if (target.descriptor >= 0) {
     Descriptor copy(::fcntl(target.descriptor, F_DUPFD_CLOEXEC, 3));
@@ -105,7 +105,7 @@ Result<Descriptor> open_in_place(const Target& target, int flags) {
 Result<Done> write_in_place(const Target& target, std::string_view bytes, int flags) {
   Result<Descriptor> opened = open_in_place(target, flags);
   if (!opened) return opened.issue();
-  std::fflush(stdout);  // what was printed before comes first, where both go to one place
+  std::fflush(stdout);  // earlier output comes first if both go to the same place
   Descriptor file = std::move(opened).value();
   if (write_all(file.number(), bytes) && file.close()) return Done{};
   return unwritable(target.named, std::strerror(errno));

@@ -1,7 +1,7 @@
-// Writes files that a user names. An existing file is written in the way that its kind allows: a plain file is
-// replaced at once by the whole new one and keeps its permissions; a symbolic link stays, and its target is written;
-// a pipe, a terminal, /dev/null, /dev/stdout and /dev/fd/N receive the bytes. Folders, sockets and disks are refused.
-// All codes are file.unwritable.
+// Writes files that a user names. The way depends on the kind of an existing file: a plain file is replaced at once by
+// the complete new one and keeps its permissions; a symbolic link stays, and its target is written; a pipe, a terminal,
+// /dev/null, /dev/stdout and /dev/fd/N receive the bytes. Folders, sockets and disks are refused. All codes are
+// file.unwritable.
 #pragma once
 
 #include <cstdio>
@@ -26,7 +26,7 @@ using OutputFile = std::unique_ptr<std::FILE, CloseFile>;
 enum class Start { anew, at_the_end };
 Result<OutputFile> open_output(const std::string& path, Start start);
 
-// Checks whether write_output could work, as far as that is visible without writing. Call it before long work.
+// Checks as far as possible without writing that write_output will work. Call it before long work.
 Result<Done> check_output(const std::string& path);
 
 }  // namespace contort

@@ -4,11 +4,12 @@ namespace contort {
 
 namespace {
 
-// Pointers and texts quote the input, which may hold control characters, or be a megabyte of one key.
+// Makes text safe for one line: pointers and texts quote the input, which may contain control characters or a key of a
+// megabyte.
 std::string one_line(const std::string& text, std::size_t most) {
   std::size_t end = text.size();
   if (end > most)
-    for (end = most; end > 0 && (text[end] & 0xc0) == 0x80;) --end;  // not inside a character
+    for (end = most; end > 0 && (text[end] & 0xc0) == 0x80;) --end;  // does not cut a character
   std::string line = text.substr(0, end);
   for (char& c : line)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';

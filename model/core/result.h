@@ -12,9 +12,9 @@ namespace contort {
 
 // The reason why an input was refused.
 struct Issue {
-  std::string code;     // "spec.unknown_action": stable, lower case, area first. Scripts and tests use it.
-  std::string pointer;  // JSON pointer (RFC 6901) into the input, "/sequences/0/clips/1"; "" is the whole input.
-  std::string text;     // One sentence for people: what was found and what is allowed.
+  std::string code;     // "spec.unknown_action": stable, lower case, area first; for scripts and tests.
+  std::string pointer;  // JSON pointer (RFC 6901) into the input, "/sequences/0/clips/1"; "" for the whole input.
+  std::string text;     // One sentence for people: the value that was found, and the allowed ones.
   bool operator==(const Issue&) const = default;
 };
 
@@ -51,7 +51,7 @@ class [[nodiscard]] Result {
   std::variant<T, Issue> state_;
 };
 
-struct Done {  // Result<Done>: something that either happened or did not.
+struct Done {  // Result<Done>: success without a value.
   bool operator==(const Done&) const = default;
 };
 

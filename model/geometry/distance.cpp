@@ -14,16 +14,16 @@ namespace {
 
 Segment core_of(const Solid& round) { return {round.center_m, round.axis, round.half_length_m}; }
 
-// From the nearest point of a box at the origin, along the axes, to p outside of it; 0 inside.
+// The distance from an axis-aligned box at the origin to p; 0 inside.
 double point_box_distance(const Vec3& p, const Vec3& half) { return length(glm::max(glm::abs(p) - half, Vec3(0.0))); }
 
-// Everything below stands in the frame of box A: A is centred at the origin with half sides `half`; B is a point, a
-// segment or a box.
+// All further computations are in the frame of box A: A is centred at the origin with half sides `half`; B is a point,
+// a segment or a box.
 struct Local {
   Vec3 half;
-  Vec3 center;   // of B
-  Vec3 axis[3];  // of B, unit: three for a box, one for a segment, none for a point
-  Vec3 size;     // half of B along each
+  Vec3 center;   // centre of B
+  Vec3 axis[3];  // unit axes of B: three for a box, one for a segment, none for a point
+  Vec3 size;     // half sizes of B along each axis
   int axis_count;
 
   Vec3 reach(int i) const { return size[i] * axis[i]; }
@@ -42,13 +42,14 @@ Local in_box_frame(const Solid& box, const Solid& other) {
   return local;
 }
 
-// A direction across which A and B are apart by `gap` (negative: they overlap by that much everywhere).
+// A direction along which A and B are separated by `gap` (negative: they overlap by at least that much along all
+// directions).
 struct BoxSeparation {
   double gap = -std::numeric_limits<double>::infinity();
   Vec3 axis{0.0};  // unit
 };
 
-// Gap between the projections of A and B on the axis n (unit); negative where they overlap.
+// The gap between the projections of A and B on the unit axis n; negative if they overlap.
 double gap_along(const Local& l, const Vec3& n) {
   double gap = std::fabs(glm::dot(l.center, n)) - glm::dot(l.half, glm::abs(n));
   for (int i = 0; i < l.axis_count; ++i) gap -= l.size[i] * std::fabs(glm::dot(l.axis[i], n));
@@ -74,7 +75,7 @@ BoxSeparation box_separation(const Local& l, double enough) {
   };
   if (best.gap > enough) return best;
   if (l.axis_count == 3)
-    for (int i = 0; i < 3; ++i) try_axis(l.axis[i]);  // a box's faces stand across its axes
+    for (int i = 0; i < 3; ++i) try_axis(l.axis[i]);  // these are also the normals of a box's faces
   if (best.gap > enough) return best;
   for (int b = 0; b < l.axis_count; ++b) {
     const Vec3& d = l.axis[b];
@@ -85,7 +86,7 @@ BoxSeparation box_separation(const Local& l, double enough) {
   return best;
 }
 
-// Corners of B against A; for a box also corners of A against B.
+// The least distance of the corners of B to A; for a box also of the corners of A to B.
 double nearest_corners(const Local& l) {
   double best = std::numeric_limits<double>::infinity();
   for (int corner = 0; corner < (1 << l.axis_count); ++corner) {
@@ -104,15 +105,15 @@ double nearest_corners(const Local& l) {
   return best;
 }
 
-// Edges of a box, at most twelve.
+// The edges of a box, at most twelve.
 struct Edges {
   Segment edge[12];
   int count = 0;
 };
 
-// The edges of the box (centre, unit axes, half sides) that come within `slack` of its farthest point along n. The
-// nearest point of two solids that are `gap` apart along n and at most gap + slack apart in all cannot be farther back
-// than that.
+// The edges of the box (centre, unit axes, half sides) that reach to within `slack` of its farthest point along n. If
+// two solids have a gap of `gap` along n and a distance of at most gap + slack, their nearest points are on these
+// edges.
 Edges edges_ahead(const Vec3& center, const Vec3 (&axes)[3], const Vec3& half, const Vec3& n, double slack) {
   double reach[3];
   for (int i = 0; i < 3; ++i) reach[i] = half[i] * glm::dot(axes[i], n);
@@ -141,7 +142,8 @@ double nearest_edges(const Local& l, const BoxSeparation& apart, double best) {
   return best;
 }
 
-// Two convex polytopes that are apart are nearest at a corner and a face, or at two edges. `way` as in signed_distance.
+// The nearest points of two convex polytopes that are apart are on a corner and a face, or on two edges. `way` as in
+// signed_distance.
 double box_distance(const Solid& box, const Solid& other, double band_m, Vec3& way) {
   const Local l = in_box_frame(box, other);
   const BoxSeparation apart = box_separation(l, band_m);
@@ -239,7 +241,7 @@ Vec3 way_out(const Solid& a, const Solid& b) {
   Vec3 way;
   const double here_m = signed_distance(a, b, kNoBand, way);
   if (way != Vec3(0.0)) return way;
-  constexpr double kStep_m = 1e-7;  // differences are good enough
+  constexpr double kStep_m = 1e-7;  // accurate enough for differences
   for (int i = 0; i < 3; ++i) {
     Solid moved_b = b;
     moved_b.center_m[i] += kStep_m;

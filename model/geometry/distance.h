@@ -18,7 +18,7 @@ struct Solid {
   Vec3 axis{1, 0, 0};                        // segment: its unit direction
   double half_length_m = 0.0;                // segment: from the centre to one end
   double radius_m = 0.0;                     // >= 0
-  double bound_m = 0.0;                      // radius of a ball about the centre that holds the solid
+  double bound_m = 0.0;                      // radius of a ball about the centre that contains the solid
   Mat3 axes{1.0};                            // box, hull: columns are its unit axes
   Vec3 half_m{0.0};                          // box: half of each side
   std::shared_ptr<const Polyhedron> hull{};  // hull: its corners are center_m + axes * corner
@@ -29,7 +29,7 @@ struct Solid {
 Solid solid_of(const ColliderShape& shape);
 Solid solid_of(const Collider& collider);  // in the frame of its joint
 Solid moved(const Rigid& to_from_own, const Solid& solid);
-// Moves `placed`, which is an already moved copy of `solid`; writes only the fields that change.
+// Moves `placed`, which is a moved copy of `solid`; writes only the fields that change.
 void place(const Rigid& to_from_own, const Solid& solid, Solid& placed);
 
 // The extent of a solid from its centre along the unit vector n, in metres.
@@ -38,8 +38,9 @@ double extent_along(const Solid& solid, const Vec3& n);
 // Returns the gap from a to b along the unit vector n. It is never greater than their signed distance.
 double gap_along(const Solid& a, const Solid& b, const Vec3& n);
 
-// Returns the approximate direction in which b gets away from a fastest: the direction between their nearest points,
-// or, if they overlap, of the shortest translation that parts them. It is for bounds, which hold for any direction.
+// Returns approximately the direction in which b gets away from a fastest: the direction between their nearest points,
+// or, if they overlap, of the shortest translation that separates them. It is used for bounds, which hold for any
+// direction.
 Vec3 way_out(const Solid& a, const Solid& b);
 
 // Returns the signed distance in metres. If it is greater than `band_m`, the result may be any number in (band_m,

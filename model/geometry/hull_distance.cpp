@@ -26,14 +26,14 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMostSteps = 64;
 constexpr double kRounding_m = 1e-12;
-constexpr double kProof = 1e-13;  // of the solids' size: bounds this close prove a distance
+constexpr double kProof = 1e-13;  // fraction of the solids' size: bounds this close prove a distance
 
-// Solid B, posed in A's frame.
+// Solid B, placed in A's frame.
 struct Other {
   std::array<Vec3, kMaxHullPoints> corners;
   std::size_t corner_count = 0;
-  const Polyhedron* solid = nullptr;  // its faces and edges; none of a point or segment
-  Mat3 a_from_b{1.0};                 // turns its normals
+  const Polyhedron* solid = nullptr;  // its faces and edges; null for a point or segment
+  Mat3 a_from_b{1.0};                 // rotates its normals
 
   std::span<const Vec3> all() const { return {corners.data(), corner_count}; }
   Vec3 normal(int face) const { return a_from_b * solid->faces[at(face)].normal; }
@@ -100,7 +100,7 @@ Simplex nearest_of(const Vec3& a, const Vec3& b) {
   return {{a, b}, 2, a + (t / size2) * along, false};
 }
 
-// Inside the triangle the plane's point is nearest, else a point of its rim.
+// If the origin projects into the triangle, that point is nearest, otherwise a point on the edge of the triangle.
 Simplex nearest_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 n = glm::cross(b - a, c - a);
   const double size2 = glm::dot(n, n);
@@ -111,7 +111,7 @@ Simplex nearest_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   return {{a, b, c}, 3, (glm::dot(a, n) / size2) * n, false};
 }
 
-// Beyond a face of the tetrahedron the nearest point is on that face.
+// If the origin is beyond a face of the tetrahedron, the nearest point is on that face.
 Simplex nearest_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const std::array<std::array<Vec3, 4>, 4> faces{{{a, b, c, d}, {a, c, d, b}, {a, d, b, c}, {b, d, c, a}}};
   Simplex best{{a, b, c, d}, 4, Vec3(kInfinity), true};
@@ -131,8 +131,8 @@ Simplex with(const Simplex& s, const Vec3& w) {
 }
 
 struct Walk {
-  double low = -kInfinity;  // the distance is no less,
-  double high = kInfinity;  // and no more
+  double low = -kInfinity;  // lower bound of the distance
+  double high = kInfinity;  // upper bound of the distance
 };
 
 Walk walk_to_origin(std::span<const Vec3> a, std::span<const Vec3> b, double enough, double proof) {
@@ -140,7 +140,7 @@ Walk walk_to_origin(std::span<const Vec3> a, std::span<const Vec3> b, double eno
   Walk walk;
   for (int step = 0; step < kMostSteps; ++step) {
     const double distance = length(simplex.nearest);
-    if (!(distance < walk.high)) return walk;  // rounding has the last word
+    if (!(distance < walk.high)) return walk;  // no progress beyond rounding
     walk.high = distance;
     if (distance <= proof) return walk;
     const Vec3 n = simplex.nearest / distance;
@@ -156,22 +156,22 @@ Walk walk_to_origin(std::span<const Vec3> a, std::span<const Vec3> b, double eno
 // ---- overlapping
 
 struct HullSeparation {
-  double gap = -kInfinity;  // > 0: they are at least this far apart; else minus the depth
+  double gap = -kInfinity;  // > 0: a lower bound of the distance; otherwise minus the depth
   Vec3 axis{0.0};           // unit, from A to B
   void try_axis(const Vec3& n, double g) {
     if (g > gap) gap = g, axis = n;
   }
 };
 
-// Whether a solid's edge along `edge` between faces with these normals has the direction n, or -n, among its normals,
-// as seen from the other edge. Gives which: 1, -1, or 0 for neither.
+// Decides whether n or -n is a normal of the edge between two faces with these normals, seen from the other solid's
+// edge. Returns 1 for n, -1 for -n, 0 for neither.
 double side_of(const Vec3& n, const Vec3& other_edge, const Vec3& left, const Vec3& right) {
   if (glm::dot(left, other_edge) * glm::dot(right, other_edge) >= 0.0) return 0.0;
   return glm::dot(n, left + right) > 0.0 ? 1.0 : -1.0;
 }
 
-// Normals across edges of A and one edge of B: a segment has every direction across it as a normal, an edge of a solid
-// those between its faces' two.
+// Tries normals across edges of A and one edge of B. A segment has all directions across it as normals; an edge of a
+// solid has those between the normals of its two faces.
 void try_edges(const Polyhedron& a, const Vec3& edge_b, const Vec3& on_b, const std::array<Vec3, 2>* normals_b,
                HullSeparation& best) {
   const double size2_b = glm::dot(edge_b, edge_b);
@@ -185,7 +185,8 @@ void try_edges(const Polyhedron& a, const Vec3& edge_b, const Vec3& on_b, const 
     if (side == 0.0) continue;
     if (normals_b != nullptr && side_of(n, edge_a, (*normals_b)[0], (*normals_b)[1]) != -side) continue;
     const double size2 = glm::dot(n, n);
-    if (size2 <= 1e-24 * size2_b * glm::dot(edge_a, edge_a)) continue;  // parallel: the faces beside them have it
+    // Parallel edges: the adjacent faces cover this normal.
+    if (size2 <= 1e-24 * size2_b * glm::dot(edge_a, edge_a)) continue;
     const Vec3 axis = (side / std::sqrt(size2)) * n;
     best.try_axis(axis, glm::dot(axis, on_b - on_a));
   }
@@ -212,10 +213,10 @@ HullSeparation hull_separation(const Polyhedron& a, const Other& b) {
   return best;
 }
 
-// ---- all but touching: every pair of features. Two polyhedra that are apart are nearest at a corner and a face, or at
-// two edges.
+// ---- nearly touching: all pairs of features. The nearest points of two polyhedra that are apart are on a corner and a
+// face, or on two edges.
 
-// The least distance of corners to the faces that they are in front of, where that is nearest in the face itself.
+// The least distance of corners to the faces in front of which they lie, if the nearest point is inside the face.
 double nearest_to_faces(std::span<const Vec3> corners, const Polyhedron& solid, std::span<const Vec3> solid_corners,
                         const Mat3& turn) {
   double best = kInfinity;
@@ -227,7 +228,7 @@ double nearest_to_faces(std::span<const Vec3> corners, const Polyhedron& solid, 
     for (const Vec3& p : corners) {
       double height = glm::dot(n, p - corner(0));
       if (height < 0.0 && height > -kRounding_m)
-        height = 0.0;  // they are apart: a corner on the face, but for rounding
+        height = 0.0;  // the solids are apart, so the corner is on the face, apart from rounding
       if (height < 0.0 || height >= best) continue;
       bool above = true;
       for (int i = 0; i < face.count && above; ++i)

@@ -1,6 +1,6 @@
-// Both cores touch the planes across the way out, each with a corner, an edge or a face. Where these features lie over
-// each other is where the solids are nearest; the corners of that region are corners of one feature over the other, and
-// crossings of their edges, so the middle of all of these is the middle of the region.
+// Finds the features of both cores (a corner, an edge or a face) that touch the planes at right angles to the
+// separating direction. The solids are nearest where these features overlap. The corners of this region are corners of
+// one feature over the other, and crossings of their edges; so the middle of all of these is the middle of the region.
 #include "model/geometry/nearest_points.h"
 
 #include <algorithm>
@@ -16,14 +16,15 @@ namespace contort {
 
 namespace {
 
-constexpr double kFlat_m = 1e-5;   // what is this far behind the foremost point still belongs to its feature
-constexpr double kEqual_m = 1e-7;  // pairs that are longer by no more are as near
-constexpr double kApart_m = 0.05;  // features are moved apart by so much: where cores cut, nearest edges are others
+constexpr double kFlat_m = 1e-5;   // points up to this far behind the foremost point belong to its feature
+constexpr double kEqual_m = 1e-7;  // pairs that are longer by at most this count as equally near
+// Distance to which features are moved apart, because the nearest edges of overlapping cores are others.
+constexpr double kApart_m = 0.05;
 
 constexpr double kNoBand = std::numeric_limits<double>::infinity();
 
-// The unit vector along which b parts from a fastest: from the nearest point of a to that of b, or the shortest way
-// out. way_out is of the faces of boxes, and says so only about.
+// The unit vector along which b gets away from a fastest: from the nearest point of a to that of b, or the shortest way
+// out. It is computed from distances, because way_out is only approximate.
 Vec3 direction_apart(const Solid& a, const Solid& b) {
   constexpr double kStep_m = 1e-6;
   Vec3 slope;
@@ -35,7 +36,7 @@ Vec3 direction_apart(const Solid& a, const Solid& b) {
   return unit_or(slope, Vec3(0, 1, 0));
 }
 
-// The corners of a core that are foremost along the unit vector n, counter-clockwise around it.
+// The corners of a core that are foremost along the unit vector n, counter-clockwise around n.
 std::vector<Vec3> feature_ahead(const Solid& solid, const Vec3& n) {
   std::vector<Vec3> points = core_points(solid);
   double front = -std::numeric_limits<double>::infinity();
@@ -54,7 +55,7 @@ struct Pair {
   double length() const { return contort::length(on_b - on_a); }
 };
 
-// Whether p lies over the feature, seen along n, whose corners go counter-clockwise around `around`.
+// Returns true if p is over the feature, whose corners go counter-clockwise around `around`.
 bool is_over(const std::vector<Vec3>& feature, const Vec3& p, const Vec3& around) {
   for (std::size_t i = 0; i < feature.size(); ++i) {
     const Vec3& from = feature[i];
@@ -73,13 +74,14 @@ Pair nearest_of(const Segment& a, const Segment& b) {
   return {a.center + at.s * a.axis, b.center + at.t * b.axis};
 }
 
-// All points of edges side by side are as near: their ends say how far that goes.
+// Returns true if the segments are not parallel. Parallel edges have many nearest points, and their end points cover
+// these.
 bool cross(const Segment& a, const Segment& b) {
   const Vec3 across = glm::cross(a.axis, b.axis);
   return a.half_length > 0.0 && b.half_length > 0.0 && glm::dot(across, across) > kNearlyParallel;
 }
 
-// `gap` is how far the features' planes are apart along n, from a to b.
+// `gap` is the distance of the features' planes along n, from a to b.
 std::vector<Pair> candidates(const std::vector<Vec3>& a, const std::vector<Vec3>& b, const Vec3& n, double gap) {
   std::vector<Pair> pairs;
   for (const Vec3& p : a)
@@ -112,7 +114,7 @@ NearestPoints nearest_points(const Solid& a, const Solid& b) {
   NearestPoints nearest{a.center_m, b.center_m, signed_distance(a, b, kNoBand)};
   if (std::isnan(nearest.distance_m)) return nearest;
   const Vec3 n = direction_apart(a, b);
-  Solid away = b;  // along the way out, far enough that cores neither overlap nor all but touch
+  Solid away = b;  // b moved along n, far enough that the cores neither overlap nor nearly touch
   const Vec3 shift = (kApart_m - (nearest.distance_m + a.radius_m + b.radius_m)) * n;
   away.center_m += shift;
   const Pair cores = middle_of_shortest(candidates(feature_ahead(a, n), feature_ahead(away, -n), n, kApart_m));

@@ -12,7 +12,7 @@ namespace contort {
 
 namespace {
 
-// Vectors of GCC and Clang.
+// Vector types of GCC and Clang.
 using Twos [[gnu::vector_size(16)]] = double;
 using Fours [[gnu::vector_size(32)]] = double;
 
@@ -28,9 +28,9 @@ void measure_one_by_one(const Solid* solids, std::span<const ColliderPair> pairs
     distances_m[i] = signed_distance(solids[pairs[i].a], solids[pairs[i].b], std::numeric_limits<double>::infinity());
 }
 
-// A few pairs, as closest_on_segments does one: see there for the formula. False where one of them is nearly parallel
-// or has no finite distance: these are not done here. One long function, because a function of vectors could not be
-// shared by kernels of different instructions.
+// Computes a few pairs at once, with the formula of closest_on_segments. Returns false if one of them is nearly
+// parallel or has no finite distance; the caller then computes them separately. It is one long function, because
+// kernels for different instructions cannot share a function of vectors.
 template <class Lanes, std::size_t... kLane>
 [[gnu::always_inline]] inline bool measure_few(const Solid* solids, const ColliderPair* pairs, double* distances_m,
                                                std::index_sequence<kLane...>) {
@@ -65,7 +65,7 @@ template <class Lanes, std::size_t... kLane>
   const Lanes apart = {std::sqrt(squared[kLane])...};
   const Lanes distances = apart - radii;
   std::memcpy(distances_m, &distances, sizeof distances);
-  const Lanes poison = ax + ay + az + bx + by + bz;  // as in signed_distance: NaN where it is not finite
+  const Lanes poison = ax + ay + az + bx + by + bz;  // as in signed_distance: NaN if a coordinate is not finite
   const auto is_finite = (poison - poison == zero) & (squared - squared == zero);
   return all_of((crosses | (a_length == zero) | (b_length == zero)) & is_finite);
 }

@@ -8,7 +8,7 @@
 
 namespace contort {
 
-// Measures pairs, several at a time, by the instructions that it is named after.
+// A function that measures several pairs at a time, with the instructions that it is named after.
 struct RoundKernel {
   const char* name;  // "SSE2" or "AVX2"; "portable" on other machines
   void (*measure)(const Solid* solids, std::span<const ColliderPair> pairs, double* distances_m);

@@ -8,8 +8,8 @@
 
 namespace contort {
 
-// A segment's points are center + t * axis, t in [-half_length, half_length]. The axis is a unit vector, any one if the
-// segment is a point: with a unit axis the solution needs only one division.
+// A segment's points are center + t * axis, t in [-half_length, half_length]. The axis is a unit vector, also for a
+// point, whose axis is arbitrary: with a unit axis the solution needs only one division.
 struct Segment {
   Vec3 center;
   Vec3 axis;
@@ -38,7 +38,7 @@ inline ClosestOnSegments closest_on_segments(const Segment& a, const Segment& b)
   const double ar = glm::dot(a.axis, between);
   const double br = glm::dot(b.axis, between);
   const double squared_sine = 1.0 - ab * ab;
-  double s = 0.0;  // parallel segments and points: any s will do, t settles the rest
+  double s = 0.0;  // parallel segments and points: s is arbitrary, and t follows from it
   if (squared_sine > kNearlyParallel) {
     s = std::clamp((ab * br - ar) / squared_sine, -a.half_length, a.half_length);
   } else if (a.half_length > 0.0 && b.half_length > 0.0) {

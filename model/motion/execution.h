@@ -1,4 +1,4 @@
-// An Execution is the result of a generator for a request, and all that a check may see of it.
+// An Execution is the result of a generator for a request, with all data that checks may use.
 #pragma once
 
 #include <cstdint>
@@ -14,21 +14,21 @@
 
 namespace contort {
 
-// The part of the root's path that an execution knows.
+// The known part of the root's path.
 enum class RootPath : std::uint8_t {
   told,         // all of it
-  on_the_spot,  // only its height; the figure walks on the spot, as in clips that an engine moves
-  unknown,      // the file has no path: the root stays at its rest place
+  on_the_spot,  // only its height; the figure walks on the spot, as in clips of games, where an engine moves the figure
+  unknown,      // nothing, because the file has no path: the root stays at its rest place
 };
 
-// A joint that must follow another one, such as one of URDF's mimic: its coordinate is multiplier * that of the leader
+// A joint that must follow another one, such as by URDF's mimic: its coordinate is multiplier * the leader's coordinate
 // + offset. Both have one coordinate.
 struct Coupling {
   int joint = 0;
   int leader = 0;
   double multiplier = 1.0;
   double offset = 0.0;  // rad or m
-  bool is_of_rotation = false;  // the joint's angle was read from a rotation, so that whole turns cannot be told
+  bool is_of_rotation = false;  // the joint's angle was read from a rotation, so whole turns are unknown
   bool operator==(const Coupling&) const = default;
 };
 

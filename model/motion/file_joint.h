@@ -8,11 +8,11 @@
 namespace contort {
 
 struct FileJoint {
-  std::string joint{};       // the joint of the character, "arm/elbow"; "" if it does not move in the character
-  double at_rest = 0.0;      // its value in the character's rest pose, where the coordinate is 0; rad or m
-  std::string follows{};     // the joint of the file that it follows (URDF's mimic); "" for none
+  std::string joint{};       // name of the character's joint, "arm/elbow"; "" if it is fixed in the character
+  double at_rest = 0.0;      // the file's value in the character's rest pose, where the coordinate is 0; rad or m
+  std::string follows{};     // name of the file's joint that it follows (URDF's mimic); "" for none
   double multiplier = 1.0;   // factor for the value of that joint
-  double offset = 0.0;       // rad or m; is added to the product
+  double offset = 0.0;       // rad or m; added to the product
   bool operator==(const FileJoint&) const = default;
 };
 

@@ -1,4 +1,4 @@
-// The data of a generator that is a program of its own which coordinates cannot hold. Checks of such generators read it
+// Data of a generator that is a program of its own, which coordinates cannot hold. Checks of such generators use them
 // (docs/reference/guests.md).
 #pragma once
 
@@ -14,12 +14,12 @@ namespace contort {
 // The reason for which a motion should be equal to another one.
 enum class Equality : std::uint8_t {
   rest,     // an action brings the figure to its rest pose
-  fresh,    // an action gives the motion that it gives when it is the only one
+  fresh,    // an action gives the same motion as if it were the only one
   none,     // an action changes nothing
   history,  // requests before this one change nothing
   rate,     // the rate changes nothing
-  undo,     // an action leaves nothing behind when it is over
-  gain,     // parameters that are nearly the same change nearly nothing
+  undo,     // an action has no effect any more after its end
+  gain,     // nearly equal parameters give nearly equal motions
   mirror,   // the request for the other side gives the mirror image
 };
 
@@ -33,8 +33,8 @@ struct EqualMotion {
   bool operator==(const EqualMotion&) const = default;
 };
 
-// The frames in which a channel of the generator had the same value: of a text that is not empty, or of a flag that is
-// set, whose value is "".
+// The frames in which a channel of the generator had the same value: a text that is not empty, or a flag that is set,
+// whose value is "".
 struct ChannelRun {
   std::string channel;
   std::string value;
@@ -49,7 +49,7 @@ struct ChannelNumbers {
   bool operator==(const ChannelNumbers&) const = default;
 };
 
-// The frames in which the generator says that a joint stands still in the world.
+// The frames in which a joint stands still in the world, according to the generator.
 struct ContactRun {
   int joint = 0;
   int first_frame = 0;
@@ -71,8 +71,8 @@ struct ForeignFacts {
   std::vector<ChannelRun> runs;  // by channel, then by frame
   std::vector<ChannelNumbers> numbers;
   std::vector<ContactRun> contacts;
-  std::vector<FrameSpan> travels{};  // frames into which the root may jump, though the pose may not
-  double root_max_speed_rad_s = std::numeric_limits<double>::infinity();  // the greatest turning speed of the root
+  std::vector<FrameSpan> travels{};  // frames into which the root may jump, but not the pose
+  double root_max_speed_rad_s = std::numeric_limits<double>::infinity();  // greatest turning speed of the root
   bool operator==(const ForeignFacts&) const = default;
 
   bool may_jump_into(int frame) const;

@@ -1,4 +1,4 @@
-// Euler angles about the axes of hinges that lie in one point, as in a hip.
+// Euler angles about the axes of hinges at one point, as in a hip.
 #pragma once
 
 #include "model/core/math.h"

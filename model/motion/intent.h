@@ -1,5 +1,5 @@
-// The Intent says what the generator meant, and when. Checks of a generator's promises read it and nothing else of
-// the generator; without an intent they cannot judge.
+// The Intent is what the generator meant to do, and when. Checks of a generator's promises read only this; without an
+// intent they cannot judge.
 #pragma once
 
 #include <cstdint>
@@ -31,11 +31,12 @@ struct IntendedAction {
   double blend_out = 0.0;
   int first_frame = 0;  // the whole frames in which it moves the part
   int last_frame = 0;
-  bool further = false;  // the generator added it on this part, to fulfil the request on the named one
+  // True: not requested for this part; the generator moves it too, to fulfil a request for another part.
+  bool further = false;
   bool operator==(const IntendedAction&) const = default;
 };
 
-// Returns true if this is a span of this action: an IntendedAction, or a generator's plan of one, with the same four
+// Returns true if this span belongs to this action: an IntendedAction, or a generator's plan of one, with the same four
 // indices.
 template <class Action>
 bool is_of(const ActionSpan& span, const Action& action) {
@@ -59,22 +60,23 @@ struct IntendedSequence {
 struct Goal {
   int first_frame = 0;
   int last_frame = -1;     // inclusive
-  int part = 0;            // the part that was sent to the target
-  int socket = 0;          // index into the character's sockets: the point that shall reach the target
-  int target_socket = -1;  // another socket of the character, at its place in that frame; -1: target_m is the target
+  int part = 0;            // the part whose action has the target
+  int socket = 0;          // index into the character's sockets: the point that must reach the target
+  // Index of the socket that is the target; it may move. -1: the fixed point target_m is the target.
+  int target_socket = -1;
   Vec3 target_m{0.0};      // in the character's frame: on the ground under the root, +Z forward
   bool in_world = false;   // target_m is in the world
-  double within_m = 0.0;   // the tolerance that the generator declares, if it is larger than that of the check
+  double within_m = 0.0;   // tolerance that the generator declares, if it is larger than the check's
   bool operator==(const Goal&) const = default;
 };
 
-// A grasp: the frames in which a hand takes hold of an object, holds it, or lets go of it. Rigid fingers that close
-// around an object overlap it.
+// A grasp: the frames in which a hand closes around an object, holds it, or opens. Rigid fingers overlap the object
+// meanwhile.
 struct Grasp {
   int first_frame = 0;
   int last_frame = -1;  // inclusive
-  int joint = 0;        // joint of the character: the bodies on it, and on joints beyond it, are the hand
-  int body = 0;         // body of the character: the object
+  int joint = 0;        // joint of the character: the bodies on it, and on its descendants, are the hand
+  int body = 0;         // index of the object's body in the character
   bool operator==(const Grasp&) const = default;
 };
 
@@ -88,18 +90,18 @@ enum class Shortfall : std::uint8_t {
 };
 std::string_view shortfall_name(Shortfall shortfall);
 
-// A request that the generator could not meet: it came as near as it could. It is a note, not a fault.
+// A request that the generator could not meet completely. It is a note, not a fault.
 struct UnmetRequest {
   int first_frame = 0;
   int last_frame = -1;  // inclusive
   int part = 0;         // part of the character that was to be moved
-  std::string action;   // the name that the spec uses
+  std::string action;   // the action's name in the spec
   Shortfall why = Shortfall::out_of_reach;
   bool operator==(const UnmetRequest&) const = default;
 };
 
 struct Intent {
-  int queued = 0;  // sequences of the spec's own queue; those that follow belong to interrupts
+  int queued = 0;  // number of sequences of the spec's own queue; later ones belong to interrupts
   std::vector<IntendedSequence> sequences;
   std::vector<IntendedAction> actions;  // in the spec's order
   std::vector<Goal> goals;

@@ -21,7 +21,8 @@ Rigid joint_motion(const Joint& joint, std::span<const double> row) {
 
 namespace {
 
-// By the joint's own motion, from where it rests. Of a hinge, `half` is of half its angle.
+// Applies the joint's own motion to its transform at rest. For a hinge, `half` has the sine and cosine of half its
+// angle.
 void move(const Joint& joint, const double* q, const det::SinCos& half, Rigid& world_from_joint) {
   auto& [turn, place_m] = world_from_joint;
   const Vec3& axis = joint.axis;
@@ -33,7 +34,8 @@ void move(const Joint& joint, const double* q, const det::SinCos& half, Rigid& w
   }
 }
 
-// The joints index_at(0), … in this order, some at a time: sines of two hinges at once cost as much as those of one.
+// Places the joints index_at(0), … in this order, several at a time: the sines of two hinges at once take as long as
+// those of one.
 template <class IndexAt>
 void place_joints(const Character& character, std::span<const double> row, int count, IndexAt index_at,
                   std::span<Rigid> world) {

@@ -7,14 +7,14 @@
 
 namespace contort {
 
-// joint_from_joint at the given coordinates: the joint's own motion about or along its axis.
+// The joint's own motion at the given coordinates: a rotation about its axis, or a translation along it.
 Rigid joint_motion(const Joint& joint, std::span<const double> row);
 
 // world_from_joint of joints [first, last). Parents of the range must be in `world` already.
 void forward_kinematics(const Character& character, std::span<const double> row, int first, int last,
                         std::span<Rigid> world);
 
-// Does the same for the listed joints, which must be in order from carriers to carried.
+// Does the same for the listed joints, parents first.
 void forward_kinematics(const Character& character, std::span<const double> row, std::span<const int> joints,
                         std::span<Rigid> world);
 

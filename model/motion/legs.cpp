@@ -21,7 +21,7 @@ bool is_sole_of(const Character& character, const Socket& socket, int leg_part) 
   return character.joints()[static_cast<std::size_t>(carrier)].part == leg_part;
 }
 
-// The joints from below the chain's tip down to the sole, hinges only.
+// The joints from below the chain's tip to the sole; only hinges.
 void find_ankles(const Character& character, const ReachChain& chain, Leg& leg) {
   const int tip = character.sockets()[static_cast<std::size_t>(chain.tip)].joint;
   std::vector<int> upward;
@@ -41,7 +41,7 @@ void stretch_over(const Vec3& point_m, double radius_m, Leg& leg) {
   }
 }
 
-// Colliders reach over the ground with what is within 2 cm of the sole.
+// The footprint covers the parts of colliders that are less than 2 cm above the sole.
 void measure_footprint(const Character& character, Leg& leg) {
   const Socket& sole = character.sockets()[static_cast<std::size_t>(leg.sole)];
   const Rigid sole_from_joint = inverse(sole.joint_from_socket);
@@ -61,7 +61,7 @@ void measure_footprint(const Character& character, Leg& leg) {
   }
 }
 
-// The distance from hip to ankle with the joint between them straight, or as near to straight as its range allows.
+// The distance from hip to ankle with the joint between them straight, or as nearly straight as its range allows.
 double longest_m(const Joint& middle, const Rigid& world_from_middle, const Vec3& hip, const Vec3& ankle, double q) {
   const Vec3 knee = world_from_middle.p_m, up = hip - knee, down = ankle - knee;
   const double stretched_m = length(up) + length(down);
@@ -76,7 +76,7 @@ double longest_m(const Joint& middle, const Rigid& world_from_middle, const Vec3
   return std::max(distance_m(middle.low - q), distance_m(middle.high - q));
 }
 
-// By the hinges of the ankle that turn about the sole's Z.
+// The greatest tilt by the ankle's hinge about the sole's Z.
 double tilt_of_ankle_rad(const Character& character, std::span<const Rigid> world, const Leg& leg) {
   const Vec3 along = world_from_socket(character, world, leg.sole).q * Vec3(0, 0, 1);
   for (int i = 0; i < leg.ankle_count; ++i) {

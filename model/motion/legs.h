@@ -1,4 +1,4 @@
-// Finds legs by structure, not by name: a part with a reach chain is a leg if it, or a part attached to it, has a
+// Finds legs by structure, not by name. A part with a reach chain is a leg if it, or a part attached to it, has a
 // socket called "sole" (on the ground at rest, +Y up, +Z to the toes).
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace contort {
 
-inline constexpr int kMaxLegs = 8;  // most legs of a character; further ones do not walk
+inline constexpr int kMaxLegs = 8;  // greatest number of a character's legs; further ones do not walk
 
 struct Leg {
   int part = 0;       // the part with the reach chain
@@ -23,8 +23,9 @@ struct Leg {
   Vec3 home_m{0.0};          // the sole at rest, in the character's frame (on the ground under the root)
   Vec3 hip_m{0.0};           // the chain's first joint at rest, in the character's frame
   Vec3 sole_from_ankle{0.0};  // the chain's tip at rest, in the sole's frame
-  double length_m = 0.0;     // from hip to ankle, as far as the range of the joint between them allows
-  double tilts_rad = kPi / 2;  // how far the ankle tilts the sole about its Z to either side; pi/2 where no hinge does
+  double length_m = 0.0;     // distance from hip to ankle, as far as the range of the joint between them allows
+  // Greatest tilt of the sole about its Z by the ankle, to either side; pi/2 if no hinge tilts it.
+  double tilts_rad = kPi / 2;
   Vec3 low_m{0.0};           // the footprint: x and z of the colliders on the sole's joint, in the sole's frame
   Vec3 high_m{0.0};
   int row = 0;  // 0 is the rearmost pair

@@ -48,7 +48,7 @@ struct AimSpan {
   bool operator==(const AimSpan&) const = default;
 };
 
-// The footing of a figure that dynamics moves, in a frame.
+// The footing of a simulated figure in a frame.
 enum class Footing : std::uint8_t {
   standing,  // on its soles, flat
   airborne,  // on nothing
@@ -59,9 +59,10 @@ enum class Footing : std::uint8_t {
 struct Stance {
   Footing footing = Footing::standing;
   bool overpowered = false;   // a joint needed more than its strength to hold the pose
-  std::uint8_t planned = 0;   // bit i: leg i stands in the target
+  std::uint8_t planned = 0;   // bit i: leg i stands in the target motion
   std::uint8_t standing = 0;  // bit i: leg i stands
-  Vec3 zmp_m{0.0};            // zero moment point of a standing figure, in the tick in which it was nearest to the edge
+  // Zero moment point of a standing figure, in the tick in which it was nearest to the edge of the support.
+  Vec3 zmp_m{0.0};
   double margin_m = 0.0;      // distance of the zero moment point inside the support area; < 0 outside
   bool operator==(const Stance&) const = default;
 };
@@ -77,11 +78,11 @@ struct ImpactMark {
 
 // The effects of dynamics, frame by frame. Empty in kinematic motions.
 struct Response {
-  int dof_count = 0;                  // freedoms: six of the root, then those of the joints in order; see dynamics/multibody.h
+  int dof_count = 0;                  // six for the root, then those of the joints in order; see dynamics/multibody.h
   std::vector<double> target_coords;  // frames x coord_count: the motion that was followed
   std::vector<Rigid> target_root;     // frames
   std::vector<double> efforts;        // frames x dof_count: greatest effort in the frame, N m or N; 0 for the root
-  std::vector<double> control;        // frames x dof_count: accelerations that dynamic control added
+  std::vector<double> control;        // frames x dof_count: accelerations by dynamic control
   std::vector<Stance> stances;        // frames
   std::vector<ImpactMark> impacts;
   bool operator==(const Response&) const = default;
@@ -90,12 +91,12 @@ struct Response {
 struct Motion {
   double rate_hz = 60.0;
   int frame_count = 0;
-  int first_frame = 0;         // earlier frames only lead up to the requested level: they are not judged or shown
+  int first_frame = 0;         // earlier frames only lead up to it, and are neither judged nor shown
   int coord_count = 0;         // doubles in a row, see Character
   std::vector<double> coords;  // frame_count * coord_count
   std::vector<Rigid> root;     // frame_count: world_from_root
-  // The time of each frame, ascending, for motions made elsewhere with uneven steps; rate_hz is then the mean rate.
-  // Empty: a frame is at frame / rate_hz.
+  // The time of each frame, ascending, for motions with uneven steps from elsewhere; rate_hz is then the mean rate.
+  // Empty: the time of a frame is frame / rate_hz.
   std::vector<double> times_s;
   std::vector<ActionSpan> spans;
   std::vector<QueueSpan> queue;  // the queue's history
@@ -120,11 +121,12 @@ struct Motion {
   bool operator==(const Motion&) const = default;
 };
 
-// Returns a hash of rate, root and coordinates, bit by bit. Equal spec text gives the equal hash everywhere
+// Returns a hash of rate, root and coordinates, bit by bit. Equal specs give equal hashes on all machines
 // (docs/internals/determinism.md).
 std::uint64_t motion_hash(const Motion& motion);
 
-// Returns a running hash after each frame, 16 bits each: two motions first differ in the frame in which these do.
+// Returns a running hash after each frame, 16 bits each. Two motions differ first in the frame in which their traces
+// do.
 std::vector<std::uint16_t> motion_trace(const Motion& motion);
 
 // Returns the first frame at which the traces differ, or -1. Different lengths count as a difference at the end of

@@ -7,7 +7,7 @@ namespace contort {
 
 namespace {
 
-// Vectors of GCC and Clang: two numbers are what any processor of ours has in one register.
+// Vector types of GCC and Clang: two numbers fit into one register of every supported processor.
 namespace twos {
 
 using Lanes [[gnu::vector_size(16)]] = double;

@@ -8,17 +8,18 @@
 
 namespace contort {
 
-// Places frames, several at a time, by the instructions that it is named after.
+// A function that places several frames at a time, with the instructions that it is named after.
 struct PlacingKernel {
   const char* name;  // "any" or "AVX2"
-  // Places as many of the first frames as it can, and returns how many. `world` is frame * joint_count + joint.
+  // Places as many frames as it can, from the first on, and returns their number. `world` is indexed by frame *
+  // joint_count + joint.
   std::size_t (*place)(const Character& character, const Motion& motion, Rigid* world);
 };
 
 // The kernels that this machine can run, the fastest last.
 std::span<const PlacingKernel> placing_kernels();
 
-// Computes world_from_joint of all joints in all frames: frame * joint_count + joint.
+// Computes world_from_joint of all joints in all frames, at index frame * joint_count + joint.
 void place_frames(const Character& character, const Motion& motion, std::vector<Rigid>& world,
                   const PlacingKernel& kernel = placing_kernels().back());
 

@@ -15,7 +15,7 @@ namespace contort {
 
 namespace {
 
-// The factor by which each node enlarges what hangs on it.
+// The scale that each node applies to its children.
 std::vector<Vec3> scales_of(const Asset& asset, const std::vector<Trs>& local) {
   std::vector<Vec3> scale(asset.nodes.size(), Vec3(1.0));
   for (const int node : asset.order) {
@@ -25,7 +25,7 @@ std::vector<Vec3> scales_of(const Asset& asset, const std::vector<Trs>& local) {
   return scale;
 }
 
-// The place of every node. Turns and places only: a bone that is scaled does not turn.
+// The place of every node, without scales: a scaled bone does not rotate.
 std::vector<Rigid> world_of(const Asset& asset, const std::vector<Trs>& local) {
   std::vector<Rigid> world(asset.nodes.size());
   const std::vector<Vec3> scale = scales_of(asset, local);
@@ -52,7 +52,7 @@ int find_node(const Asset& asset, const std::string& name) {
   return found == asset.nodes.end() ? -1 : static_cast<int>(found - asset.nodes.begin());
 }
 
-// By joint the node that is given for it, or that has its name; or -1.
+// The node of each joint: the given one, or the one with its name; -1 for none.
 Result<std::vector<int>> nodes_of_joints(const Character& character, const RecordingUse& use) {
   std::vector<int> nodes;
   for (const Joint& own : character.joints()) nodes.push_back(find_node(use.asset, own.name));
@@ -70,35 +70,37 @@ Result<std::vector<int>> nodes_of_joints(const Character& character, const Recor
   return nodes;
 }
 
-// The turn about a unit axis that comes nearest to a rotation.
+// The rotation about a unit axis that is nearest to a given rotation.
 double twist_about(const Vec3& axis, const Quat& q) {
   return wrap_angle(2.0 * det::atan2(glm::dot(axis, Vec3(q.x, q.y, q.z)), q.w));
 }
 
-// The same turn of a hinge, counted on from the frame before: past half a turn it goes on, and does not jump to -pi.
+// The equivalent angle of a hinge that is nearest to the previous frame's: past half a turn it continues, and does not
+// jump to -pi.
 double counted_on(double angle, double before) {
   return angle + 2.0 * kPi * std::floor((before - angle + kPi) / (2.0 * kPi));
 }
 
-// A joint of the character with the node that it follows.
+// A joint of the character and the node that it follows.
 struct Followed {
   int joint = 0;
   int node = 0;
-  int hinges = 1;    // that share the node's turn: this one and those after it
-  Quat world_aside;  // turns the character's bone at rest to where the model's lies
+  int hinges = 1;    // number of hinges that share the node's rotation: this one and the next ones
+  Quat world_aside;  // rotates the character's bone at rest to the direction of the model's
 };
 
-// Heights of the character's and the model's lowest mapped joints, and how much larger the character is.
+// The heights of the character's and the model's lowest mapped joints, and the ratio of their sizes.
 struct Fit {
   double scale = 1.0;
   double floor_m = 0.0;
   double node_floor = 0.0;
 };
 
-// Models stand along the axes. Turned by a quarter about +Y, a place (x, z) comes to (z, -x); the turn counts that lays
-// the places best over the character's own, where they are spread out enough to tell.
+// Finds the rotation between two figures that stand along the axes. A quarter turn about +Y moves a place (x, z) to (z,
+// -x). The turn is chosen that brings the places nearest to the character's own, if they are spread out enough to
+// decide.
 Quat facing_of(const std::vector<Vec3>& model, const std::vector<Vec3>& own) {
-  constexpr double kPlain = 0.3, kHalf = 0.70710678118654752;  // sin and cos of 45 degrees
+  constexpr double kPlain = 0.3, kHalf = 0.70710678118654752;  // kHalf: sine and cosine of 45 degrees
   double along = 0.0, across = 0.0, at_most = 0.0;
   for (std::size_t i = 0; i < model.size(); ++i) {
     const Vec3 &m = model[i], &c = own[i];
@@ -110,7 +112,8 @@ Quat facing_of(const std::vector<Vec3>& model, const std::vector<Vec3>& own) {
   return {kHalf, 0.0, across > 0.0 ? kHalf : -kHalf, 0.0};
 }
 
-// Chooses the one of two solutions of Euler angles that is nearer to the frame before, so that none jumps to the other.
+// Chooses the solution of Euler angles that is nearer to the previous frame, so that no angle jumps to the other
+// solution.
 Vec3 nearer_solution(const Vec3& one, const Vec3& before, int hinges) {
   const Vec3 other(wrap_angle(one.x + kPi), wrap_angle(kPi - one.y), wrap_angle(one.z + kPi));
   double apart[2] = {0.0, 0.0};
@@ -149,7 +152,7 @@ class Follower {
     return Done{};
   }
 
-  // An entry for each joint that has a node, with nothing missed yet.
+  // Returns an entry for each joint that has a node, with nothing missed yet.
   std::vector<FollowedNode> followed() const {
     std::vector<FollowedNode> out;
     for (const Followed& f : followed_) out.push_back({f.joint, f.node, f.hinges});
@@ -179,7 +182,7 @@ class Follower {
  private:
   const Joint& joint(int index) const { return character_.joints()[at(index)]; }
 
-  // Counts the hinges in one point that go with this one because they have no nodes of their own.
+  // Counts this hinge and the hinges at the same point that share its node, because they have none of their own.
   int hinges_from(int first) const {
     int count = 1;
     while (count < 3 && joint(first).kind == JointKind::hinge && first + count < static_cast<int>(rest_.size())) {
@@ -192,7 +195,7 @@ class Follower {
     return count;
   }
 
-  // The nearest joint towards the root that follows a node; -1 for the root.
+  // The nearest joint towards the root that follows a node; null for the root.
   const Followed* above(int index) const {
     for (int j = joint(index).parent; j >= 0; j = joint(j).parent)
       if (followed_of_[at(j)] >= 0) return &followed_[at(followed_of_[at(j)])];
@@ -278,7 +281,7 @@ class Follower {
     return use_.start.q * turned(f.node, nodes) * f.world_aside * rest_[at(f.joint)].q;
   }
 
-  // Keeps the most that the joint did not take over.
+  // Keeps the greatest movement that the joint could not follow.
   void note(const Followed& f, int frame, const std::vector<Rigid>& nodes, const std::vector<Trs>& local,
             std::span<const Rigid> world, FollowedNode& out) const {
     if (joint(f.joint).kind == JointKind::prismatic) return;
@@ -330,7 +333,7 @@ class Follower {
   std::vector<Vec3> node_scale_;  // at rest
   std::vector<Rigid> node_rest_;
   std::vector<Rigid> rest_;
-  std::vector<int> followed_of_;  // by joint: index into the next, or -1
+  std::vector<int> followed_of_;  // by joint: index into followed_, or -1
   std::vector<Followed> followed_;
   Fit fit_;
 };
@@ -338,7 +341,7 @@ class Follower {
 }  // namespace
 
 double frames_of(const RecordingUse& use) {
-  // A clip of exactly n periods has n + 1 frames, whatever 32-bit times make of its end.
+  // Rounds, so that a clip of exactly n periods has n + 1 frames although its end is a 32-bit time.
   const double length_s = std::max(0.0, use.clip.last_s - use.clip.first_s - use.from_s);
   return std::floor(length_s * use.rate_hz + 1e-3) + 1.0 + use.hold_frames;
 }

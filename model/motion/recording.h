@@ -24,17 +24,19 @@ namespace contort {
 struct RecordingUse {
   const Asset& asset;
   const AssetClip& clip;
-  const std::map<std::string, std::string>& joints;  // node -> the character's joint; other nodes follow by equal names
-  double from_s = 0.0;                               // the time in the clip at which it begins
+  // Joint of the character, by node; other nodes follow by equal names.
+  const std::map<std::string, std::string>& joints;
+  double from_s = 0.0;                               // time in the clip at which the motion begins
   double rate_hz = 60.0;
   int hold_frames = 0;  // frames of the last pose after the end
   Rigid start;          // places the model's origin in the world: a turn about +Y and a translation
-  // A model whose joints lie over the character's after a quarter turn or two about +Y is turned so.
+  // If turning the model by one, two or three quarters about +Y brings its joints nearer to the character's, it is
+  // turned.
   bool may_face_elsewhere = false;
-  bool may_lack_root = false;  // without a node for the root, it stays where it is at rest
+  bool may_lack_root = false;  // a root without a node stays where it is at rest
 };
 
-// A joint that followed a node, and the most that it left out.
+// A joint that followed a node, and the greatest movement that it could not follow.
 struct FollowedNode {
   int joint = 0;
   int node = 0;

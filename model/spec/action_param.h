@@ -20,7 +20,7 @@ enum class ParamType {
 // The fuzzer chooses values by their domain; people may write any value within low and high.
 enum class Domain {
   uniform,       // anywhere in [low, high]
-  joint_range,   // within the limits of the joint that the parameter is named after
+  joint_range,   // within the limits of the joint in the parameter's name
   within_reach,  // a point in or slightly beyond the reach of the part's chain
   around,        // a point some metres around the character
 };
@@ -29,7 +29,7 @@ enum class Domain {
 // side, as parts are, and their values are mirrored; values in specs never are.
 enum class Mirrored {
   same,
-  opposite,  // an angle to the left is one to the right
+  opposite,  // an angle to the left becomes one to the right
   point,     // x changes its sign
   rotation,  // a rotation vector: y and z change their signs
 };
@@ -45,17 +45,17 @@ struct ParamDef {
   Domain domain = Domain::uniform;
   Mirrored mirrored = Mirrored::same;
   std::string help;
-  std::vector<std::string> points{};  // for object_point and own_point: the names that this part can use
-  bool is_characteristic = false;     // a file gave the preset: it is part of what makes the action that action
-  std::vector<ParamValue> special{};  // values that are drawn in half of the cases, each as often as the others
-  double steps = 0.0;                 // steps_of() this parameter, if they do not follow from its name
+  std::vector<std::string> points{};  // for object_point and own_point: names that this part can use
+  bool is_characteristic = false;     // the preset comes from a file and distinguishes the action from others
+  std::vector<ParamValue> special{};  // values that are drawn in half of the cases, all with the same odds
+  double steps = 0.0;                 // steps_of() this parameter; 0: they follow from its name
   std::vector<Vec3> box{};            // for a vector: the lowest and highest value of each component, if these differ
                                       // between components
   bool operator==(const ParamDef&) const = default;
 };
 
 // The lattice on which the fuzzer draws and shrinks a parameter, by its unit: whole degrees, centimetres, 0.1 m/s,
-// hundredths of a share.
+// hundredths of a fraction.
 double steps_per_unit(std::string_view param_name);
 double steps_of(const ParamDef& def);
 

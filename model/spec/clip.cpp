@@ -10,7 +10,7 @@ double natural_length(const ClipDesc& clip) {
   return length;
 }
 
-// Not natural * scale: 7 * (29.0 / 7) is more than 29.
+// Does not multiply by a scale, because 7 * (29.0 / 7) is more than 29.
 double stretched(double natural, int wanted_frames) {
   return wanted_frames > 0 && natural > 0.0 ? wanted_frames : natural;
 }

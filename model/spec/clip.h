@@ -1,4 +1,4 @@
-// The motion that a spec asks for: actions in clips, clips in sequences, sequences one after another. Plain values,
+// The motion that a spec describes: actions in clips, clips in sequences, sequences one after another. Plain values,
 // part of a Spec.
 #pragma once
 
@@ -38,7 +38,7 @@ struct SequenceDesc {
   bool operator==(const SequenceDesc&) const = default;
 };
 
-// An interrupt waits for an event; docs/reference/timeline.md says what each one means.
+// An interrupt waits for an event; docs/reference/timeline.md describes each one.
 enum class Event { frame, clip_ended, sequence_ended, contact, aim_reached, impact, near_obstacle, ground_steeper };
 std::span<const std::string_view> event_names();  // in the order of the enum
 inline std::string_view event_name(Event event) { return event_names()[static_cast<std::size_t>(event)]; }

@@ -1,4 +1,4 @@
-// The dynamics that a Spec asks for: the control mode, loads, and impacts.
+// The dynamics of a Spec: the control mode, loads, and impacts.
 #pragma once
 
 #include <span>
@@ -11,13 +11,13 @@
 namespace contort {
 
 enum class Mode {
-  kinematic,  // the motion is what actions make of it
-  tracking,   // a simulated figure follows that motion, each joint by itself; standing feet stay in place
-  dynamic,    // as tracking; in addition it yields to loads and impacts, keeps its balance, and has limited strength
+  kinematic,  // the motion is that of the actions
+  tracking,   // a simulated figure follows that motion, each joint separately; standing feet stay in place
+  dynamic,    // like tracking, but the figure yields to loads and impacts, keeps its balance, and has limited strength
 };
 std::span<const std::string_view> mode_names();  // in the order of the enum
 
-// A box that a part carries. The target motion is made without it.
+// A box that a part carries. The target motion ignores it.
 struct LoadDesc {
   std::string slot;
   std::string socket;           // a socket of that slot's part
@@ -27,7 +27,7 @@ struct LoadDesc {
   bool operator==(const LoadDesc&) const = default;
 };
 
-// An impact: an instantaneous impulse on a point of a part.
+// An impact: an instantaneous impulse at a point of a part.
 struct ImpactDesc {
   int frame = 0;  // it acts at the beginning of this frame
   std::string slot;

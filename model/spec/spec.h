@@ -1,5 +1,5 @@
-// A Spec is the action specification: one value that says everything about one motion. The fuzzer draws it, a case
-// stores it, and a person can write it by hand. Its JSON form, limits and schema come from the field lists in
+// A Spec is the action specification: one value that determines everything about one motion. The fuzzer draws it, a
+// case stores it, and a person can write it by hand. Its JSON form, limits and schema come from the field lists in
 // spec.cpp.
 #pragma once
 
@@ -18,7 +18,7 @@ namespace contort {
 
 // The place and heading of the character in frame 0.
 struct StartDesc {
-  Vec3 position_m{0.0};      // its height is that of the ground at this place
+  Vec3 position_m{0.0};      // on the ground: its y has no effect
   double heading_deg = 0.0;  // about +Y; 0 faces +Z
   double ahead_m = 0.0;      // distance of the hips in front of their place over the feet: legs lean from the ankles
   double lower_m = 0.0;      // distance of the hips below their height on stretched legs: knees stay bent
@@ -30,7 +30,7 @@ struct RecordingDesc {
   std::string name;                           // "": none
   std::string clip;                           // clip of that file; "": its first one
   double from_s = 0.0;                        // skips the beginning of the clip, such as a reference pose
-  std::map<std::string, std::string> joints;  // the animation's node -> the character's joint, where names differ
+  std::map<std::string, std::string> joints;  // joint of the character, by node of the animation, if their names differ
   bool operator==(const RecordingDesc&) const = default;
 };
 

@@ -24,7 +24,7 @@ GroundAngles angles_of(const StepsGround& ground) {
 GroundAngles angles_of(const PlaneGround&) { return {}; }
 GroundAngles angles_of(const HeightGround&) { return {}; }
 
-// Along the heading: the coordinate of (x, z) in its direction.
+// The coordinate of (x, z) along the heading.
 double along(const GroundAngles& angles, double x_m, double z_m) { return x_m * angles.sin + z_m * angles.cos; }
 
 double height_of(const PlaneGround& ground, const GroundAngles&, double, double) { return ground.height_m; }
@@ -38,7 +38,7 @@ double height_of(const StepsGround& ground, const GroundAngles& angles, double x
   return ground.height_m * std::clamp(climbed, 0.0, static_cast<double>(ground.count));
 }
 
-// A cell of the grid and where in it the point is, in [0, 1].
+// A cell of the grid, and the position of the point in it, in [0, 1].
 struct Cell {
   int index = 0;
   double share = 0.0;
@@ -46,7 +46,7 @@ struct Cell {
 
 Cell cell_of(double coordinate_m, double spacing_m, int count) {
   const double at = std::clamp(coordinate_m / spacing_m + 0.5 * (count - 1), 0.0, static_cast<double>(count - 1));
-  // No number has no cell: any will do, as its share stays none.
+  // NaN gets cell 0; its share stays NaN.
   const int index = at > 0.0 ? std::min(static_cast<int>(at), std::max(0, count - 2)) : 0;
   return {index, at - index};
 }
@@ -72,7 +72,7 @@ double height_of(const Ground& ground, const GroundAngles& angles, double x_m, d
 // The normal of a slope or a grid, in the environment's frame, pointing up.
 template <class Shape>
 Vec3 normal_of(const Shape& ground, const GroundAngles& angles, double x_m, double z_m) {
-  constexpr double kStep_m = 1e-4;  // both grounds are linear at this scale, but for the grid's own edges
+  constexpr double kStep_m = 1e-4;  // both grounds are linear at this scale, except at the grid's own edges
   const double dx = height_of(ground, angles, x_m + kStep_m, z_m) - height_of(ground, angles, x_m - kStep_m, z_m);
   const double dz = height_of(ground, angles, x_m, z_m + kStep_m) - height_of(ground, angles, x_m, z_m - kStep_m);
   return unit_or(Vec3(-dx, 2.0 * kStep_m, -dz), Vec3(0, 1, 0));
@@ -88,8 +88,8 @@ double highest_of(const HeightGround& ground) {
   return highest;
 }
 
-// The y that no normal of a ground falls below. Between the points of a grid heights are interpolated, so that nowhere
-// the ground rises more steeply than between two neighbours.
+// The smallest y of any normal of a ground. Heights between grid points are interpolated, so the ground never rises
+// more steeply than between two neighbouring points.
 double least_up_of(const HeightGround& ground) {
   double across_m = 0.0, along_m = 0.0;
   const auto at = [&](int r, int c) { return ground.heights_m[static_cast<std::size_t>(r * ground.columns + c)]; };
@@ -219,11 +219,12 @@ Vec3 Environment::normal_at(double x_m, double z_m) const {
          std::visit([&](const auto& ground) { return normal_of(ground, angles_, at.x, at.z); }, ground_);
 }
 
-// Ground that rises by at most a tangent t is nowhere above a cone of that slope over one of its points, and the y of its
-// normals is at least least_up_ = 1 / sqrt(1 + t^2). So each point of a ball is farther away than the height of its centre
-// over the ground times least_up_, less its radius. Steps have no such tangent: they are bounded by their highest tread.
+// Ground whose greatest slope has the tangent t lies below a cone of that slope over any of its points, and the y of
+// its normals is at least least_up_ = 1 / sqrt(1 + t^2). So every point of a ball is at least this far away: the height
+// of its centre over the ground times least_up_, minus its radius. Steps have no such tangent and are bounded by their
+// highest tread.
 bool Environment::is_surely_over_ground(const Vec3& center_m, double radius_m, double distance_m) const {
-  constexpr double kRounding_m = 1e-9, kRoundingShare = 1e-6;  // more than the distance's own rounding errors
+  constexpr double kRounding_m = 1e-9, kRoundingShare = 1e-6;  // more than the rounding errors of the distance itself
   const double needed_m =
       std::max(0.0, distance_m + radius_m + kRounding_m) / (least_up_ * (1.0 - kRoundingShare));
   if (center_m.y - highest_m_ > needed_m) return true;

@@ -18,7 +18,7 @@ struct Surface {
   int obstacle = -1;  // -1: the ground
 };
 
-// A ground's angles, as queries need them.
+// The angles of a ground, precomputed for queries.
 struct GroundAngles {
   double sin = 0.0;  // sine of the heading of a slope or steps
   double cos = 1.0;
@@ -30,14 +30,14 @@ class Environment {
   Environment() = default;  // a level plane at height 0
 
   double height_at(double x_m, double z_m) const;
-  // The normal of the ground, a unit vector; on steps that of the tread.
+  // The unit normal of the ground; on steps that of the tread.
   Vec3 normal_at(double x_m, double z_m) const;
   bool is_level() const { return level_; }
 
   // Distance to the ground is along its normal under the point, exact for planes and slopes.
   Surface nearest_ground(const Vec3& point_m) const;
-  // Returns true if a cheap test shows that nearest_ground() is farther than distance_m for each point of a ball. False
-  // may also mean that the test could not tell.
+  // Returns true if a cheap test proves that nearest_ground() is farther than distance_m for each point of a ball.
+  // False means that the test proved nothing.
   bool is_surely_over_ground(const Vec3& center_m, double radius_m, double distance_m) const;
   // Returns obstacle = -1 and an infinite distance if there are no obstacles.
   Surface nearest_obstacle(const Vec3& point_m) const;
@@ -64,8 +64,8 @@ class Environment {
   double level_m_ = 0.0;   // height of level ground, in the world
   bool is_flat_ = true;    // its normal is the same everywhere: level ground, and the treads of steps
   Vec3 up_{0.0, 1.0, 0.0};  // the normal of flat ground, in the world
-  double highest_m_ = 0.0;  // no ground is higher, in the world
-  double least_up_ = 1.0;   // no normal has a smaller y
+  double highest_m_ = 0.0;  // height that no ground exceeds, in the world
+  double least_up_ = 1.0;   // smallest y of any normal
 };
 
 // Codes environment.wrong_count (heights), .duplicate_name, .bad_shape; pointers from the description's root.

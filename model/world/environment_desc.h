@@ -23,14 +23,15 @@ struct SlopeGround {  // Height 0 at the origin.
 
 struct StepsGround {  // A flight of steps up; level before and behind it.
   double heading_deg = 0.0;
-  double start_m = 1.0;  // The place of the first riser along the heading.
+  double start_m = 1.0;  // Position of the first riser along the heading.
   double depth_m = 0.3;  // The depth of a tread.
   double height_m = 0.15;
   int count = 5;
   bool operator==(const StepsGround&) const = default;
 };
 
-struct HeightGround {  // Heights on a square grid centred on the origin, bilinear between; beyond the edges as at them.
+// Heights on a square grid centred on the origin, bilinear in between. Beyond the edges, heights stay the same.
+struct HeightGround {
   int columns = 2;     // along +X
   int rows = 2;        // along +Z
   double spacing_m = 1.0;
@@ -47,8 +48,8 @@ struct ObstacleDesc {
 };
 
 struct EnvironmentDesc {
-  Vec3 position_m{0.0};      // The place of its origin: ground and obstacles move together.
-  double heading_deg = 0.0;  // Its turn about +Y.
+  Vec3 position_m{0.0};      // Position of the environment's origin: ground and obstacles move together.
+  double heading_deg = 0.0;  // Its rotation about +Y.
   Ground ground;
   std::vector<ObstacleDesc> obstacles;
   bool operator==(const EnvironmentDesc&) const = default;

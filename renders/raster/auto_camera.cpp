@@ -10,21 +10,22 @@ namespace {
 
 constexpr int kWidth = 96;
 constexpr int kHeight = 72;
-constexpr double kAroundFigure_m = 1.0;  // A few steps of a stair.
+constexpr double kAroundFigure_m = 1.0;  // Covers a few steps of a stair.
 
-// In a pair, a chest has many more pixels than the hand in it: the sum alone would hide the hand. So the one that shows
-// least decides, and the sum between nearly equal views.
+// The score of a view. In a pair, a chest has many more pixels than the hand in it, so the sum would ignore the hand.
+// Therefore the smaller number decides, and the sum only between nearly equal views.
 int score(const std::vector<int>& visible) {
   if (visible.size() < 2) return 0;
   const auto groups = std::span(visible).subspan(1);
   return 4 * *std::min_element(groups.begin(), groups.end()) + std::accumulate(groups.begin(), groups.end(), 0);
 }
 
-// A view from the front is understood sooner; it may cost this much of what could be seen.
+// A view from the front is easier to understand, so it may show this much less.
 constexpr double kGoodEnough = 0.9;
-constexpr double kGoodEnoughOnShapedGround = 0.6;  // So may one that shows the ground's shape, more dearly.
+// The same for a view that shows the shape of the ground, which matters more.
+constexpr double kGoodEnoughOnShapedGround = 0.6;
 
-// Scenery is translucent, so what is behind it counts, but not as much.
+// Pixels behind scenery, which is translucent, count less than free ones.
 constexpr int kPastScenery = 2;
 
 struct Probe {

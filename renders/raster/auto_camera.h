@@ -1,5 +1,5 @@
-// Chooses a camera that shows the fault. A fixed camera had the offending forearm behind the body in three frames of
-// eight.
+// Chooses a camera that shows the fault. With a fixed camera, the forearm at fault was behind the body in three frames
+// of eight.
 #pragma once
 
 #include <optional>
@@ -14,9 +14,9 @@ struct ProbedView {
   int visible_pixels = 0;  // pixels of all highlighted pieces, in a picture of 96 x 72; 0: hidden from every side
 };
 
-// Draws the frame from each of the views. Chooses the first view in which the least visible highlight group is about
-// as visible as in any other; views past the scenery are better than views through it. Without highlight it does the
-// same for the whole figure; without scenery too, it takes the first view.
+// Draws the frame from each of the views, and chooses the first one in which the least visible highlight group is about
+// as visible as in the best view. Views past the scenery are better than views through it. Without highlight it does
+// the same for the whole figure; without scenery too, it takes the first view.
 Result<ProbedView> best_view(Renderer& renderer, const DrawList& list, std::span<const Triangles> meshes,
                              std::span<const View> views);
 

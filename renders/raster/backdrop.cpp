@@ -12,7 +12,8 @@ namespace contort {
 
 namespace {
 
-constexpr float kShapedGroundAlpha = 0.6f;  // More hides feet behind a rise, less hides the rise.
+// With a greater value the ground hides feet behind a rise; with a smaller one the rise is hardly visible.
+constexpr float kShapedGroundAlpha = 0.6f;
 
 }  // namespace
 
@@ -65,7 +66,7 @@ void Backdrop::draw_level(const DrawList& list, const Eye& eye, bool show) const
   gl_.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 
-// Depth alone first: of ground behind ground, only what is nearest may be seen.
+// Draws depth first, so that of several ground surfaces only the nearest is visible.
 void Backdrop::draw_shaped(const DrawList& list, const Eye& eye) const {
   gl_.DepthMask(GL_TRUE);
   draw_shaped_layer(list, eye, false);

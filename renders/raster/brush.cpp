@@ -44,7 +44,7 @@ void Brush::begin(const Program& program, const glm::mat4& clip_from_world) {
   begun_ = &program;
   gl_.UseProgram(program.id);
   meshes_.bind();
-  gl_.Enable(GL_CULL_FACE);  // Counter-clockwise seen from outside; halves the work.
+  gl_.Enable(GL_CULL_FACE);  // Faces are counter-clockwise seen from outside; culling halves the work.
   set_matrix(gl_, program.id, "clip_from_world", clip_from_world);
 }
 
@@ -53,7 +53,7 @@ void Brush::draw(const DrawInstance& instance, const Eye& eye, const Paint& pain
   if (paint.flatten) world_from_mesh = *paint.flatten * world_from_mesh;
   gl_.UniformMatrix4fv(begun_->place, 1, GL_FALSE, glm::value_ptr(world_from_mesh));
   set_color(gl_, begun_->color, paint.color ? *paint.color : instance.color, paint.alpha);
-  gl_.Uniform1f(begun_->rim, paint.rim);  // Without effect where the program has none.
+  gl_.Uniform1f(begun_->rim, paint.rim);  // No effect if the program has no such uniform.
   meshes_.draw(instance.mesh);
 }
 

@@ -32,7 +32,7 @@ class Brush {
   void begin_flat(const glm::mat4& clip_from_world);  // Instances have their plain colour from now on.
   void draw(const DrawInstance& instance, const Eye& eye, const Paint& paint = {}) const;
 
-  // Draws those of the instances that `is_meant` picks, all with one paint.
+  // Draws the instances for which `is_meant` returns true, all with one paint.
   template <class Pick>
   void draw_all(std::span<const DrawInstance> instances, const Eye& eye, const Paint& paint, Pick is_meant) const {
     for (const DrawInstance& instance : instances)
@@ -51,7 +51,7 @@ class Brush {
   const Gl& gl_;
   const MeshBuffer& meshes_;
   Program shaded_, flat_;
-  const Program* begun_ = nullptr;  // the program that is in use
+  const Program* begun_ = nullptr;  // the program in use
 };
 
 }  // namespace contort

@@ -30,7 +30,8 @@ bool find_all(void* library, EglApi& api) {
          find_symbol(library, "eglGetProcAddress", api.function);
 }
 
-// Stays loaded for good, as libOSMesa does. Always the software driver: the pictures of two machines shall be the same.
+// The library stays loaded, as libOSMesa does. It always uses the software driver, so that pictures of all machines are
+// equal.
 void* open_egl() {
   ::setenv("LP_NUM_THREADS", "0", /*overwrite=*/0);
   ::setenv("LIBGL_ALWAYS_SOFTWARE", "1", /*overwrite=*/0);
@@ -50,7 +51,7 @@ class EglBackend final : public GlBackend {
   EglBackend(const EglBackend&) = delete;
   EglBackend& operator=(const EglBackend&) = delete;
 
-  // Without a surface: all drawing goes to framebuffer objects.
+  // Needs no surface, because all drawing goes to framebuffer objects.
   bool make_current() override {
     return api_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE;
   }

@@ -7,7 +7,8 @@ namespace contort {
 
 namespace {
 
-// From above the camera's left shoulder: all strips are lit alike, and shadows fall away from the viewer.
+// The light comes from above the camera's left shoulder, so all strips are lit alike and shadows fall away from the
+// viewer.
 Vec3 light_of(const Camera& camera) {
   return unit_or(1.1 * Vec3(0, 1, 0) + 0.65 * camera.back - 0.55 * camera.right, Vec3(0, 1, 0));
 }

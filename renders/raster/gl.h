@@ -1,5 +1,5 @@
-// The OpenGL 3.3 functions that the renderer calls, as a table of pointers. gl* symbols are never linked: with two GL
-// libraries in one process the linker may pick the one without a context, and every call does nothing, silently.
+// The OpenGL 3.3 functions of the renderer, as a table of pointers. gl* symbols are never linked: with two GL libraries
+// in one process the linker may choose the one without a context, and then every call silently does nothing.
 #pragma once
 
 #include <cstddef>
@@ -82,7 +82,7 @@ struct Gl {
 #undef CONTORT_GL_MEMBER
 };
 
-// Needs the backend to be current. Pointers prove nothing (see GlBackend::function), so this asks for the version too.
+// The backend must be current. Pointers prove nothing (see GlBackend::function), so this also queries the version.
 // Codes: render.no_opengl, render.old_opengl.
 Result<Gl> load_gl(GlBackend& backend);
 

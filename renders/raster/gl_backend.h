@@ -1,5 +1,5 @@
-// A source of OpenGL. The renderer knows only this. Mesa has dropped OSMesa from release 25.1 on; EGL without a
-// screen takes its place, with the same bytes where both come from one release.
+// A source of OpenGL; the renderer uses only this interface. Mesa has dropped OSMesa from release 25.1 on. EGL without
+// a screen replaces it, and gives the same bytes in the same release.
 #pragma once
 
 #include <memory>

@@ -8,7 +8,7 @@ namespace contort {
 // True for instances that are drawn first, with depth.
 inline bool is_opaque(const DrawInstance& instance) { return !instance.ghost && !instance.on_top; }
 
-// True for pieces of the grey figure that shows a motion's target; together they are one layer.
+// True for pieces of the grey figure that shows the target motion. Together they are one layer.
 inline bool is_ghost_figure(const DrawInstance& instance) {
   return instance.ghost && !instance.mark && instance.highlight == 0;
 }
@@ -16,7 +16,7 @@ inline bool is_ghost_figure(const DrawInstance& instance) {
 // True for instances that are blended over the opaque ones, one by one.
 inline bool is_translucent(const DrawInstance& instance) { return instance.ghost && !is_ghost_figure(instance); }
 
-// True for instances that are drawn again, faintly, where something is in front of them.
+// True for instances that are drawn again, faintly, through objects in front of them.
 inline bool shines_through(const DrawInstance& instance) {
   return instance.highlight > 0 || (instance.mark && !instance.ghost && !instance.on_top);
 }

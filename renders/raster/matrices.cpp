@@ -12,7 +12,8 @@ glm::mat4 float_matrix(const Rigid& place, const Vec3& origin_m) {
 
 glm::mat4 clip_matrix(const Camera& camera, double aspect) {
   const Vec3 eye = camera.eye_m - camera.center_m;
-  const double near = 0.25, far = 4.0 * glm::length(eye) + 30.0;  // Less than the clearance that camera.cpp keeps.
+  // Near must be less than the clearance that camera.cpp keeps.
+  const double near = 0.25, far = 4.0 * glm::length(eye) + 30.0;
   glm::dmat4 view(1.0);
   const Vec3 axes[] = {camera.right, camera.up, camera.back};
   for (int row = 0; row < 3; ++row) {

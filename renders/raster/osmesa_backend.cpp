@@ -9,7 +9,7 @@
 #include "renders/raster/gl_backend.h"
 
 #ifdef CONTORT_ASAN
-// Mesa 22.3 leaks 160 bytes with every context, whatever the order of calls; LeakSanitizer would fail the process.
+// Mesa 22.3 leaks 160 bytes with every context, for any order of calls, and LeakSanitizer would let the process fail.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa\n"; }
 extern "C" const char* __lsan_default_options();
@@ -26,9 +26,10 @@ struct OsmesaApi {
   std::add_pointer_t<decltype(OSMesaGetProcAddress)> function = nullptr;
 };
 
-// The library stays loaded for good: Mesa's threads and exit handlers may outlive a context.
+// The library stays loaded, because Mesa's threads and exit handlers may outlive a context.
 void* open_osmesa() {
-  // One rasterizer thread per process would fight over one lock; processes scale instead (twice as fast on two cores).
+  // Threads of one process would compete for one lock. Several processes are faster instead (twice as fast on two
+  // cores).
   ::setenv("LP_NUM_THREADS", "0", /*overwrite=*/0);
   for (const char* name : {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"})
     if (void* library = ::dlopen(name, RTLD_NOW | RTLD_LOCAL)) return library;
@@ -45,7 +46,7 @@ class OsmesaBackend final : public GlBackend {
   OsmesaBackend(const OsmesaBackend&) = delete;
   OsmesaBackend& operator=(const OsmesaBackend&) = delete;
 
-  // All drawing goes to framebuffer objects; the buffer that OSMesa asks for only has to exist.
+  // All drawing goes to framebuffer objects. OSMesa requires a buffer, but it is not used.
   bool make_current() override {
     return api_.make_current(context_, unused_.data(), GL_UNSIGNED_BYTE, kUnusedSide, kUnusedSide) == GL_TRUE;
   }

@@ -22,7 +22,7 @@ OIIO::ImageSpec spec_of(const Image& image) {
 constexpr std::pair<std::string_view, std::string_view> kSpelled[] = {
     {"\xC2\xB0", " deg"}, {"\xE2\x80\x93", "-"}, {"\xE2\x80\xA6", "..."}, {"\xE2\x80\xAF", " "}};
 
-// One character of valid UTF-8 off the front of `text`, in ASCII.
+// Takes one character of valid UTF-8 off the front of `text`, and returns it in ASCII.
 std::string_view take_spelled(std::string_view& text) {
   std::size_t length = 1;
   while (length < text.size() && (static_cast<unsigned char>(text[length]) & 0xc0) == 0x80) ++length;
@@ -65,7 +65,7 @@ Result<Done> write_text(Image& image, int x, int y, std::string_view text, int s
   OIIO::ImageBuf buffer(spec_of(image), image.rgb.data());
   const float rgb[] = {static_cast<float>(color.r) / 255.0f, static_cast<float>(color.g) / 255.0f,
                        static_cast<float>(color.b) / 255.0f};
-  // One thread: text is small, and OpenImageIO's pool would stay for the life of the process.
+  // Uses one thread: text is small, and OpenImageIO's thread pool would stay for the life of the process.
   const bool written = OIIO::ImageBufAlgo::render_text(buffer, x, y, OIIO::string_view(text.data(), text.size()),
                                                        size_px, face.path, rgb, OIIO::ImageBufAlgo::TextAlignX::Left,
                                                        OIIO::ImageBufAlgo::TextAlignY::Baseline, 0, {}, 1);
@@ -77,7 +77,7 @@ Result<Done> write_text(Image& image, int x, int y, std::string_view text, int s
 Result<std::string> png_bytes(const Image& image, const std::string& comment) {
   OIIO::ImageSpec spec = spec_of(image);
   spec.attribute("Comment", comment);
-  // Level 3 without row filters: 1.9 ms and 39 KB for 320 x 240, where the defaults take 6.7 ms for 38 KB.
+  // Level 3 without row filters: 1.9 ms and 39 KB for 320 x 240; the defaults take 6.7 ms for 38 KB.
   spec.attribute("png:compressionLevel", 3);
   spec.attribute("png:filter", 8);
   std::vector<unsigned char> bytes;

@@ -1,4 +1,4 @@
-// Text and PNG, by OpenImageIO.
+// Writes text and PNG with OpenImageIO.
 #pragma once
 
 #include <cstdint>

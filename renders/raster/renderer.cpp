@@ -13,22 +13,23 @@ namespace {
 constexpr int kOversampling = 2;  // See halve_and_flip.
 constexpr float kGhostAlpha = 0.42f;
 constexpr float kFigureAlpha = 0.5f;        // Opacity of the ghost of a whole figure.
-constexpr float kMarkAlpha = 0.55f;         // Opacity of translucent marks, seen as they are and not at their rims.
-constexpr double kGhostSetback_m = 0.03;    // Away from the eye: a figure that coincides with its ghost hides it.
-constexpr float kObstacleAlpha = 0.42f;     // A figure behind two walls stays clear.
-constexpr float kShineThroughAlpha = 0.4f;  // More looks as if nothing were in front.
+constexpr float kMarkAlpha = 0.55f;         // Opacity of translucent marks, the same at all angles.
+// Moves the ghost away from the eye, so that a figure at the same place hides it.
+constexpr double kGhostSetback_m = 0.03;
+constexpr float kObstacleAlpha = 0.42f;     // Through two walls, a figure is still clearly visible.
+constexpr float kShineThroughAlpha = 0.4f;  // A greater value would look as if nothing were in front.
 constexpr float kShadowAlpha = 0.20f;
 
 bool is_on_top(const DrawInstance& instance) { return instance.on_top; }
 
-// Pixels by the group that their red channel says.
+// The number of pixels of each group, which is in the red channel.
 std::vector<int> count_groups(const std::vector<std::uint8_t>& rgba) {
   std::vector<int> counts(256, 0);
   for (std::size_t i = 0; i < rgba.size(); i += 4) ++counts[rgba[i]];
   return counts;
 }
 
-// Groups that opaque instances belong to, and group 0.
+// The number of groups of opaque instances, including group 0.
 std::size_t group_count(const DrawList& list) {
   std::size_t count = 1;
   for (const DrawInstance& instance : list.instances)
@@ -106,7 +107,7 @@ Result<Image> Renderer::draw(const DrawList& list, const Camera& camera, int wid
   return image;
 }
 
-// All that hides nothing, so that it writes no depth.
+// Draws everything that hides nothing, without writing depth.
 void Renderer::draw_blended(const DrawList& list, const Eye& eye) {
   gl_.Enable(GL_BLEND);
   gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
@@ -139,7 +140,7 @@ Result<std::vector<int>> Renderer::count_visible(const DrawList& list, const Cam
   return counts;
 }
 
-// Opaque instances, with the number of their group as their red channel.
+// Draws opaque instances with the number of their group in the red channel.
 void Renderer::draw_groups(const DrawList& list, const Eye& eye) {
   for (const DrawInstance& instance : list.instances) {
     if (!is_opaque(instance)) continue;
@@ -169,7 +170,7 @@ void Renderer::draw_shadows(const DrawList& list, const Eye& eye) {
   static constexpr Vec3 kBlack(0.05, 0.07, 0.10);
   const double lifted = list.scenery.level_m - eye.center_m.y + 0.001;
   const glm::mat4 flatten = shadow_matrix(eye.to_light, lifted);
-  gl_.Enable(GL_STENCIL_TEST);  // Each pixel once, or shadows of several parts would add up.
+  gl_.Enable(GL_STENCIL_TEST);  // Draws each pixel once; otherwise shadows of several parts would add up.
   gl_.StencilFunc(GL_EQUAL, 0, 0xff);
   gl_.StencilOp(GL_KEEP, GL_KEEP, GL_INCR);
   brush_.begin_flat(eye.clip_from_world);
@@ -182,12 +183,12 @@ void Renderer::draw_translucent(const DrawList& list, const Eye& eye) {
   for (const DrawInstance& instance : list.instances)
     if (is_translucent(instance))
       brush_.draw(instance, eye, instance.mark ? Paint{.alpha = kMarkAlpha} : Paint{.alpha = kGhostAlpha, .rim = 0.45f});
-  gl_.DepthFunc(GL_GREATER);  // Only where something is in front.
+  gl_.DepthFunc(GL_GREATER);  // Only pixels behind other objects.
   brush_.draw_all(list.instances, eye, {.alpha = kShineThroughAlpha}, shines_through);
   gl_.DepthFunc(GL_LESS);
 }
 
-// Grey and of one layer: depth alone first, or limbs behind limbs would add up to black.
+// Draws the grey figure as one layer. Depth comes first; otherwise limbs behind limbs would add up to black.
 void Renderer::draw_ghost_figure(const DrawList& list, const Eye& eye) {
   const Vec3 back_m = -kGhostSetback_m * glm::normalize(eye.at);
   brush_.begin_shaded(eye);
@@ -210,7 +211,7 @@ void Renderer::draw_on_top(const DrawList& list, const Eye& eye) {
   gl_.DepthFunc(GL_LESS);
 }
 
-// Over all else, so that nothing hides behind them; ground still hides what is below it.
+// Draws obstacles over everything else, so that they hide nothing. Ground still hides objects below it.
 void Renderer::draw_obstacles(const DrawList& list, const Eye& eye) {
   if (list.scenery.obstacles.empty()) return;
   if (list.scenery.ground.empty()) {
@@ -222,7 +223,7 @@ void Renderer::draw_obstacles(const DrawList& list, const Eye& eye) {
   for (const DrawInstance& instance : list.scenery.obstacles) brush_.draw(instance, eye, {.alpha = kObstacleAlpha});
 }
 
-// Scenery as if nothing were translucent, as group 0.
+// Draws scenery as if it were opaque, as group 0.
 void Renderer::draw_hiding(const DrawList& list, const Eye& eye) {
   static constexpr Vec3 kNoGroup(0.0);
   gl_.Disable(GL_CULL_FACE);  // The eye may be below the ground.

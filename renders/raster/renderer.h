@@ -25,8 +25,8 @@ namespace contort {
 
 class Renderer {
  public:
-  // Makes the backend current, and draws and reads a test pixel: a GL that does nothing is refused here.
-  // Codes: render.no_opengl, render.old_opengl, render.shader, render.framebuffer.
+  // Makes the backend current, and draws and reads a test pixel, to refuse an OpenGL that does nothing. Codes:
+  // render.no_opengl, render.old_opengl, render.shader, render.framebuffer.
   static Result<std::unique_ptr<Renderer>> create(std::unique_ptr<GlBackend> backend);
   ~Renderer();
   Renderer(const Renderer&) = delete;

@@ -8,7 +8,7 @@
 namespace contort {
 namespace {
 
-constexpr int kBand = 26;  // above each row, with its label
+constexpr int kBand = 26;  // height of the band above each row, with its label
 constexpr int kGap = 2;
 constexpr int kPadding = 8;
 constexpr int kLabelSize = 15;
@@ -20,7 +20,7 @@ constexpr Rgb8 kNumberColor{40, 48, 60};
 constexpr Rgb8 kMarkColor{200, 20, 20};
 constexpr int kMarkWidth = 4;
 
-// Labels, tiles with their frames' numbers, and what they are put on.
+// The labels and tiles of the rows, and the picture on which they are placed.
 class Table {
  public:
   Table(const RowsInput& input, std::vector<Issue>& warnings) : input_(input), face_{input.font}, warnings_(warnings) {
@@ -78,7 +78,7 @@ void append(std::vector<Value>& all, const std::vector<Value>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
-// The contents of all rows together, for one camera.
+// The contents of all rows together, which one camera must frame.
 struct Gathered {
   std::vector<Shots> rows;
   std::vector<std::vector<Vec3>> outlines;

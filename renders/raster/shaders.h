@@ -3,7 +3,7 @@
 
 namespace contort::shaders {
 
-// A software rasterizer runs both sides of every branch, so different kinds of surfaces have separate programs.
+// A software rasterizer executes both sides of every branch, so different kinds of surfaces have separate programs.
 
 // The program for all triangles. `rim` is the opacity of a translucent surface that faces the camera (1: opaque). pow()
 // is slow here, so the highlight's 16th power is made by squaring, and gamma is 2.

@@ -51,7 +51,8 @@ void ShadowMap::clear() {
 
 glm::mat4 light_matrix(const Camera& camera, double aspect, const Vec3& to_light) {
   const double distance_m = glm::length(camera.eye_m - camera.center_m);
-  const double half_m = 1.5 * distance_m * camera.tan_half_height * std::max(1.0, aspect);  // A picture's corner.
+  // Reaches to the corner of the picture.
+  const double half_m = 1.5 * distance_m * camera.tan_half_height * std::max(1.0, aspect);
   const Vec3 right = perpendicular(to_light);
   const Vec3 axes[] = {right, glm::cross(to_light, right), -to_light};
   glm::dmat4 matrix(1.0);

@@ -36,7 +36,7 @@ std::vector<int> frames_of(const StripInput& input) {
                        input.tiles);
 }
 
-// Everything about a strip but its pixels.
+// All data of a strip except its pixels.
 struct Plan {
   Shots shots;
   View view;
@@ -51,7 +51,8 @@ Plan plan_strip(const StripInput& input, const std::vector<int>& frames) {
   return plan;
 }
 
-// The worst frame of the finding. Without one, the middle: a walker is on its stair by then.
+// The tile with the finding's worst frame. Without a finding it is the middle one, in which a walking figure is already
+// on the stairs.
 std::size_t probed_tile(const StripInput& input, const std::vector<int>& frames) {
   if (!input.finding) return frames.size() / 2;
   const auto found = std::lower_bound(frames.begin(), frames.end(), input.finding->worst_frame);
@@ -69,7 +70,7 @@ Result<Done> choose_camera(Renderer& renderer, const StripInput& input, double a
   return Done{};
 }
 
-// `count` of the planned frames from `first` on, in one picture.
+// `count` of the planned frames, from `first` on, in one picture.
 struct Tiles {
   std::size_t first = 0, count = 0;
 };
@@ -89,7 +90,7 @@ Result<Image> draw_tiles(Renderer& renderer, const StripInput& input, const Plan
   return std::move(sheet).image();
 }
 
-// A sheet of one tile for each frame of the half second, as they follow each other.
+// Writes the animation: a sheet of one tile for each frame of the half second, in their order.
 Result<Done> write_clip(Renderer& renderer, const StripInput& input, const View& view, const std::string& path) {
   const int middle = input.finding ? input.finding->worst_frame : (input.motion.first_frame + input.motion.frame_count) / 2;
   const Clip clip = choose_clip(middle, input.motion.frame_count, input.motion.rate_hz);
@@ -97,7 +98,7 @@ Result<Done> write_clip(Renderer& renderer, const StripInput& input, const View&
   plan.camera = frame_strip(plan.shots.outlines, plan.shots.anchors, view, Sheet::picture_aspect(input));
   renderer.set_meshes(plan.shots.meshes);
   std::vector<Image> images;
-  StripDone unused;  // its warnings are those of the strip
+  StripDone unused;  // its warnings are the same as the strip's
   for (std::size_t i = 0; i < clip.frames.size(); ++i) {
     Result<Image> image = draw_tiles(renderer, input, plan, {i, 1}, unused);
     if (!image) return image.issue();

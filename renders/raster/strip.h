@@ -54,7 +54,7 @@ struct RowsInput {
   std::vector<StripRow> rows;           // 1 to 16
   std::vector<int> frames;              // The frames of every row, 1 to 16; their numbers are in the tiles' corners.
   std::optional<double> azimuth_rad{};  // As in StripInput; chosen for the first row's middle tile.
-  std::optional<int> marked_frame{};    // Its tiles have a red frame, and say `mark`.
+  std::optional<int> marked_frame{};    // Its tiles have a red frame, and show `mark`.
   std::string mark{};
   std::string replay_command{};
   int tile_width = 176;  // Pixels, in [96, 2048].

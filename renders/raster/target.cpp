@@ -7,7 +7,7 @@
 namespace contort {
 namespace {
 
-constexpr int kLargestSide = 8192;  // llvmpipe allows 16384; a picture this large is a mistake.
+constexpr int kLargestSide = 8192;  // llvmpipe allows 16384, but such a large picture is a mistake.
 
 }  // namespace
 

@@ -34,8 +34,8 @@ class Target {
   std::vector<std::uint8_t> pixels_;
 };
 
-// Averages squares of 2 x 2 pixels and turns the rows over. This is the anti-aliasing: cheaper than multisampling with
-// a software rasterizer, and the same with every driver.
+// Averages squares of 2 x 2 pixels and reverses the order of rows. This is the anti-aliasing: cheaper than
+// multisampling with a software rasterizer, and the same with every driver.
 Image halve_and_flip(const std::vector<std::uint8_t>& rgba, int width, int height);
 
 }  // namespace contort

@@ -123,7 +123,8 @@ TEST(JointSpeeds, AreAngleOverTimeBetweenKeys) {
   EXPECT_TRUE(speeds[0].within_keys.empty());
 }
 
-// Nobody sees two keys that are a microsecond apart, or at one time: only the jump from frame to frame.
+// A person cannot see two keys that are a microsecond apart, or at one time; only the jump from frame to frame is
+// visible.
 TEST(JointSpeeds, KeysCloserThanAFrameAreOneJumpBetweenFrames) {
   for (const double apart_s : {0.0, 1e-6, 1e-3}) {
     AssetClip clip;
@@ -156,7 +157,7 @@ TEST(JointSpeeds, AStepHoldsAndJumpsInAFrame) {
   EXPECT_EQ(speeds.between_keys[1].speed_rad_s, 0.0);
 }
 
-// Written as STEP at 30 Hz, a motion is as fast as it is with straight ways between the keys.
+// A motion that is written as STEP at 30 Hz is as fast as with linear interpolation between the keys.
 TEST(JointSpeeds, OfAMotionThatWasSampledAndWrittenAsStepAreThoseOfItsRate) {
   for (const auto interpolation : {Interpolation::step, Interpolation::linear}) {
     AssetClip clip;
@@ -174,7 +175,8 @@ TEST(JointSpeeds, OfASplineAreTakenInsideOfTheKeysToo) {
   ASSERT_EQ(speeds.between_keys.size(), 1U);
   ASSERT_EQ(speeds.within_keys.size(), 1U);
   EXPECT_NEAR(speeds.between_keys[0].speed_rad_s, 1.0, 1e-14);
-  // It starts and ends at rest: 3/2 in the middle of the chord, whose middle is nearer to 0 than the circle.
+  // The spline starts and ends at rest: 3/2 of the mean speed in the middle of the chord, which is nearer to 0 than the
+  // circle.
   EXPECT_NEAR(speeds.within_keys[0].speed_rad_s, 1.5 * 2.0 * std::tan(0.25) / 0.5, 0.015 * 1.6);
   EXPECT_NEAR(0.5 * (speeds.within_keys[0].t0_s + speeds.within_keys[0].t1_s), 0.5, 1e-12);
 }
@@ -248,7 +250,7 @@ RC_GTEST_PROP(SampleProperty, NoMomentOfASplineIsFasterThanItsPeak, ()) {
   if (sampled < 10.0) RC_ASSERT(peak < 1.01 * sampled + 0.01);
 }
 
-// Between two keys a linear rotation turns at the speed that joint_speeds tells, everywhere.
+// Between two keys a linear rotation has the speed of joint_speeds everywhere.
 RC_GTEST_PROP(SampleProperty, LinearRotationsKeepTheirSpeed, ()) {
   AssetClip clip;
   clip.channels = {any_turns()};

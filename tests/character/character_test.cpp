@@ -244,7 +244,7 @@ RC_GTEST_PROP(Inertia, MergingDoesNotCareForOrderOrPlace, ()) {
   for (int i = 0; i < 3; ++i) RC_ASSERT(length(here.inertia_kg_m2[i] - there.inertia_kg_m2[i]) < 1e-11);
 }
 
-// Two points of 1 kg, 2 m apart: 1 m from the centre each, and nothing about their line.
+// Two points of 1 kg, 2 m apart: each is 1 m from the centre, and the inertia about their line is 0.
 TEST(Inertia, TwoPointsMakeADumbbell) {
   const BodyInertia pair =
       merged(principal_inertia(1, Vec3(-1, 0, 0), Vec3(0)), principal_inertia(1, Vec3(1, 0, 0), Vec3(0)));

@@ -120,7 +120,7 @@ TEST(Human, SegmentsHaveTheTablesInertia) {
   }
 }
 
-// Flexing brings what is below forward (+Z), or, at the knee, backward; abducting brings it outward.
+// Flexing moves the distal link forward (+Z) or, at the knee, backward; abducting moves it outward.
 TEST(Human, PositiveAnglesTurnTheWayTheirNamesSay) {
   struct Turn {
     const char* joint;

@@ -1,4 +1,4 @@
-// Descriptions as files: the stock ones, and those of a user's folder.
+// Descriptions as files: the stock ones, and those in a user's folder.
 #include "model/character/library.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The stock mech, whose parts can be swapped: everything that may stand on it fits.
+// The stock mech, whose parts can be swapped: all parts and objects fit.
 #include <gtest/gtest.h>
 
 #include <set>

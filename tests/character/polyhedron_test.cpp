@@ -22,7 +22,7 @@ std::vector<Vec3> cube_points() {
   return points;
 }
 
-// Everything that makes it the surface of the points' convex hull.
+// Checks all properties of the surface of the points' convex hull.
 void expect_hull_of(const Polyhedron& p, const std::vector<Vec3>& points, double tolerance) {
   ASSERT_EQ(p.corners_m.size() + p.faces.size(), p.edges.size() + 2);
   std::vector<std::set<int>> edges_of(p.faces.size());

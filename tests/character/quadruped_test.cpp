@@ -62,7 +62,7 @@ Vec3 moved_m(const std::string& turned, const std::string& watched) {
   return world[at].p_m - fixtures::world_at_rest(c)[at].p_m;
 }
 
-// Flexing folds a leg: stifle and shoulder bring what is below them back, hock, elbow and hip bring it forward.
+// Flexing folds a leg: stifle and shoulder move the next link back; hock, elbow and hip move it forward.
 TEST(Quadruped, PositiveAnglesFoldTheLegs) {
   EXPECT_GT(moved_m("leg_hind_left/hip_flex", "leg_hind_left/stifle").z, 0.02);
   EXPECT_LT(moved_m("leg_hind_left/stifle", "leg_hind_left/hock").z, -0.02);

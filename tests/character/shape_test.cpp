@@ -1,4 +1,4 @@
-// The shapes that are drawn are closed, face outward and fill those that collide.
+// The drawn shapes are closed, face outward and fill the colliding shapes.
 #include "model/character/shape.h"
 
 #include <gtest/gtest.h>

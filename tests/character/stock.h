@@ -18,8 +18,7 @@ inline Character built(const CharacterChoice& choice, const Library& library = s
   return character ? std::move(character).value() : Character();
 }
 
-// The stock library, whose joints here are as fast as anybody likes: for laws of timing, which hold as long as no joint is
-// held back.
+// The stock library with very fast joints, for laws of timing that hold only if no joint is at its speed limit.
 inline const Library& tireless_library() {
   static const Library library = [] {
     Library made = stock_library();

@@ -1,4 +1,4 @@
-// aim_error: exemplars on either side of the limit, and what the generator declares an aim.
+// aim_error: exemplars on either side of the limit, and the aims that the generator declares.
 #include <gtest/gtest.h>
 
 #include "tests/checks/small_character.h"
@@ -74,7 +74,7 @@ TEST(AimError, OutOfReachIsAnUnmetRequestAndNoFinding) {
   const int head = evaluator.execution().character->find_part("head");
   // In the last frame before it fades: until then the figure is turning.
   EXPECT_EQ(hurried, (std::vector{UnmetRequest{50, 50, head, "aim", Shortfall::joint_speed}}));
-  // From when it has come in, where neither torso nor legs may help.
+  // From the frame in which the aim is blended in, in which neither torso nor legs may help.
   const std::vector<UnmetRequest> alone = unmet_of({head_aims_at(behind), use("look_at", "torso", 0, 60, {}),
                                                     use("crouch", "waist", 0, 60, {{"share", 0.05}})});
   EXPECT_EQ(alone, (std::vector{UnmetRequest{20, 50, head, "aim", Shortfall::out_of_reach}}));

@@ -1,4 +1,4 @@
-// Between two frames: what passes through is found, and nothing deeper than a millimetre is missed.
+// Between two frames: bodies that pass through each other are found, and no overlap deeper than a millimetre is missed.
 #include "checks/between_frames.h"
 
 #include <gtest/gtest.h>
@@ -102,7 +102,8 @@ struct Steps {
 
 constexpr int kParts = 256;
 
-// Coordinates in between, as docs/reference/checks.md says. Written anew: the check's own interpolation is on trial.
+// The coordinates in between, as in docs/reference/checks.md. This is a separate implementation, because the check's
+// own interpolation is under test.
 std::vector<double> row_between(const Character& character, const Motion& motion, double time) {
   std::vector<double> row(motion.row(0).begin(), motion.row(0).end());
   for (const Joint& joint : character.joints()) {
@@ -153,7 +154,8 @@ std::vector<double> reported(const Character& character, const Motion& motion) {
 
 class BetweenFramesOf : public testing::TestWithParam<const char*> {};
 
-// Every moment that the check can look at is one of the 257, so what it reports cannot be deeper than what they see.
+// All moments that the check can examine are among the 257, so it cannot report a deeper overlap than the deepest of
+// them.
 TEST_P(BetweenFramesOf, NothingIsMissedByMoreThanAMillimetreNorMadeUp) {
   const Character character = *build_character({GetParam(), {}, {}}, stock_library());
   Steps steps{character, Random(99)};

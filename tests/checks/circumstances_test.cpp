@@ -1,4 +1,4 @@
-// In what circumstances a frame is: by example, one for each phase.
+// The circumstances of a frame: one example for each phase.
 #include "checks/circumstances.h"
 
 #include "generator/execute.h"
@@ -38,7 +38,7 @@ TEST(Circumstances, TheMiddleOfAClipIsCalledSoWithItsActions) {
 
 TEST(Circumstances, WhereAClipBeginsItIsASwitch) {
   const Case c(two_clips());
-  EXPECT_EQ(c.phase(0), Phase::mid_clip);  // nothing was before
+  EXPECT_EQ(c.phase(0), Phase::mid_clip);  // there is no earlier action
   EXPECT_EQ(c.phase(38), Phase::mid_clip);
   for (const int frame : {39, 40, 41}) EXPECT_EQ(c.phase(frame), Phase::clip_switch) << frame;
   EXPECT_EQ(c.phase(42), Phase::mid_clip);

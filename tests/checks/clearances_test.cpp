@@ -1,5 +1,5 @@
-// Distances of judged pairs against every pair of colliders measured alone, and self_collision, which leaves out most,
-// against itself made to look at everything.
+// Compares the distances of judged pairs with those of all pairs of colliders measured separately; and self_collision,
+// which skips most pairs, with itself without skipping.
 #include "checks/clearances.h"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ class ClearancesOf : public testing::TestWithParam<const char*> {
   Character character_ = *build_character({GetParam(), {}, {}}, stock_library());
 };
 
-// Thresholds are drawn as well: nearer than what matters it is the distance, else something in between.
+// Thresholds are random, too: below the threshold the result is the distance, otherwise a value between them.
 TEST_P(ClearancesOf, AreExactWhereItMattersAndNeverTooGreat) {
   Random random(7);
   const Motion motion = wandering(character_, 64, random);
@@ -103,7 +103,7 @@ MarginFold folded(const Stage& stage, const Motion& motion, bool all) {
   return fold;
 }
 
-// A pair that nobody looked at changes nothing: neither findings, nor how near any pair ever came.
+// Skipped pairs change nothing: neither findings nor the smallest distance of any pair.
 TEST_P(ClearancesOf, WhatSelfCollisionLeavesOutChangesNothing) {
   int episodes = 0;
   DrawConfig config{{GetParam()}};

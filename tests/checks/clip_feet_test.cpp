@@ -1,4 +1,4 @@
-// Feet of a file's own skeleton: what is a slide, what sinks, and what is neither.
+// Feet of a file's own skeleton: slides, sinking feet, and movements that are neither.
 #include "checks/clip_feet.h"
 
 #include <gtest/gtest.h>

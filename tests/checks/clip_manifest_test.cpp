@@ -1,4 +1,4 @@
-// Checks of clips: each has an exemplar just inside its limit and one just outside. And what could not judge a clip.
+// Checks of clips: each has an exemplar just inside its limit and one just outside, and a clip that it cannot judge.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ struct ShownClip {
   std::vector<ClipFoot> feet{};
 };
 
-// Three joints above each other, 0.3 m apart, of which the last has a channel.
+// Three joints above each other, 0.3 m apart; the last one has a channel.
 Asset joints_with(const AssetChannel& channel) {
   Asset asset;
   for (const char* name : {"hips", "spine", "arm"}) {
@@ -75,7 +75,7 @@ AssetChannel turning_at_30_hz(const std::vector<double>& angles_rad) {
   return channel;
 }
 
-// The joints are 0.6 m apart in all, a hundredth of which is allowed.
+// The joints span 0.6 m, of which one hundredth is allowed.
 ShownClip out_of_place(double inside) {
   std::vector<Vec3> places(13, Vec3(0.3, 0, 0));
   places[6].y = 0.006 - inside;
@@ -111,7 +111,7 @@ ShownClip of_length(double inside) {
   return shown;
 }
 
-// The left leg is moved by its hip from 1 s to 2 s, and stays there.
+// The left leg moves at its hip from 1 s to 2 s, and stays there.
 ShownClip with_leg_moved(const Vec3& way) {
   ShownClip shown{fixtures::person_on_legs(), false, {}, fixtures::kTwoFeet};
   AssetClip clip;

@@ -135,7 +135,7 @@ TEST(ClipSpeed, ATurnInNoTimeIsAsFastAsAFrameShowsItAndStandingStillIsNot) {
   EXPECT_NEAR(speeds(turning({0, 1, 1, 2}, {0, 0.5, 0.5, 1})).peak_rad_s, 0.5, 1e-12);
 }
 
-// Keys at equal times have no inside; those of their neighbours must not be taken for theirs.
+// Keys at equal times have no interval between them; the peaks of neighbouring intervals must not be assigned to it.
 TEST(ClipSpeed, ASplineWithKeysAtOneTimeIsStillSampledInside) {
   const ClipSpeeds s = speeds(spline({0, 0, 0, 1}, {0, 0, 0, 1.0}, 0.0), 1.2);
   EXPECT_GT(s.peak_rad_s, 1.4);
@@ -177,7 +177,7 @@ struct RealPeak {
   double deg_s;
 };
 
-// Not its bytes: they hold addresses, and names of tests must stay the same.
+// Prints no bytes: they contain addresses, and names of tests must stay the same.
 void PrintTo(const RealPeak& peak, std::ostream* out) { *out << std::filesystem::path(peak.file).stem().string(); }
 
 class RealFile : public testing::TestWithParam<RealPeak> {};

@@ -1,4 +1,4 @@
-// translation_pop, scale_pop, jitter and bind_pose_flash of clips: when they speak and when they stay quiet.
+// translation_pop, scale_pop, jitter and bind_pose_flash of clips: motions with and without findings.
 #include <gtest/gtest.h>
 
 #include "checks/judge_clip.h"
@@ -23,7 +23,7 @@ Asset chain_of_three() {
   return asset;
 }
 
-// Adds a channel at so many keys a second.
+// Adds a channel with this many keys a second.
 void add_channel_of(Asset& asset, int node, ChannelPath path, const std::vector<std::vector<double>>& rows,
                     double rate_hz = 30.0) {
   AssetChannel channel;

@@ -1,4 +1,4 @@
-// joint_torque, balance, tracking_error: exemplars on either side of their limits, and what they do not judge.
+// joint_torque, balance, tracking_error: exemplars on either side of their limits, and motions that they do not judge.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -117,7 +117,7 @@ TEST(DynamicsChecks, OnlyTheLossOfBalanceIsAFindingFromThenOn) {
   }
 }
 
-// The figure is at rest, so that it withstands what its mass, height and soles allow.
+// The figure is at rest, so it withstands the push that follows from its mass, height and soles.
 TEST(DynamicsChecks, JudgeNothingAfterABlowThatIsHarderThanTheFigureWithstands) {
   Judged judged(60);
   const double withstands = withstands_N_s(judged.character, judged.motion, 10, Vec3(0.0, 0.0, 1.0));

@@ -15,14 +15,14 @@ namespace contort {
 
 namespace {
 
-// A motion of the small character, and what was to be played where that matters.
+// A motion of the small character, with its intent if that matters.
 struct Shown {
   Motion motion;
   Intent intent{};
   Environment environment{};
 };
 
-// One that stays this far (in the check's unit) inside of one limit of one check; negative: outside.
+// A motion that is inside of one limit of one check by this margin, in the check's unit; negative: outside.
 using Exemplar = Shown (*)(const Character&, double margin);
 
 Shown lifted(const Character& character, double margin) {
@@ -142,7 +142,7 @@ Intent intent_of_one(const char* action, Layer layer, int part, int last_frame) 
   return intent;
 }
 
-// A grip is to stay on a socket of the base, and is beside it.
+// A grip must stay on a socket of the base, and is beside it.
 Shown missed(const Character& character, double margin) {
   Motion motion = small::at_rest(character, 13);
   for (int frame = 0; frame < 13; ++frame)
@@ -171,7 +171,7 @@ Shown lingering(const Character& character, double margin) {
   return {motion, intent_of_one("hit_reaction", Layer::additive, 0, 10)};
 }
 
-// It goes on one frame too late, which is a millisecond at 1 kHz.
+// It continues one frame too late, which is a millisecond at 1 kHz.
 Shown skipping(const Character& character, double margin) {
   Motion motion = small::at_rest(character, 14, 1.0 / (0.001 - margin));
   motion.queue = {{0, 4, 0, 0}, {4, 6, 1, 0}, {6, 11, 0, 5}};
@@ -232,7 +232,7 @@ TEST(Manifest, EveryExemplarBelongsToACheck) {
   for (const auto& exemplar : exemplars()) EXPECT_EQ(names.count(exemplar.first), 1U) << exemplar.first;
 }
 
-// Some judge the whole figure, and bone_position only what the character's file declares.
+// Some checks judge the whole figure, and bone_position only the regions in the character's file.
 int fewest_subjects(std::string_view check, const Character& character) {
   for (const char* name : {"balance", "bind_pose_flash", "queue_gap", "root_pop", "stuck"}) if (check == name) return 1;
   if (check == "self_collision") return static_cast<int>(character.judged_pairs().size());

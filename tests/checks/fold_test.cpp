@@ -1,4 +1,4 @@
-// The fold from margins to episodes, against a reference that looks at whole rows instead of keeping state.
+// Compares the fold from margins to episodes with a reference that uses whole rows instead of a state.
 #include "checks/fold.h"
 
 #include <gtest/gtest.h>

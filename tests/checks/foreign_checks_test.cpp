@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kDegree = 1.0 * kRadPerDeg;
 
-// Rest for three frames, with facts that say nothing wrong.
+// Rest for three frames, with facts without faults.
 Execution resting() {
   Execution made;
   made.character = std::make_shared<const Character>(small::build());
@@ -64,7 +64,7 @@ Execution turned_off_axis(double room) {
   return made;
 }
 
-// The figure is said to stand while its root rises this far.
+// The figure is declared to stand while its root rises by this distance.
 Execution rising(double room) {
   Execution made = resting();
   made.foreign->contacts = {{0, 0, made.motion.frame_count - 1}};
@@ -72,9 +72,9 @@ Execution rising(double room) {
   return made;
 }
 
-constexpr int kPopFrame = 6;  // of twelve
+constexpr int kPopFrame = 6;  // of twelve frames
 
-// Rest, but from one frame on the root is higher, or turned, and stays so.
+// Rest, except that from one frame on the root is higher, or rotated.
 Execution root_elsewhere(double up_m, double turn_rad) {
   Execution made = resting();
   Motion& motion = made.motion;

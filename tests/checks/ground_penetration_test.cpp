@@ -55,7 +55,7 @@ TEST(GroundPenetration, AgreesWithPointsOnTheSurfaceOnPlanesAndSlopes) {
     const Rigid root{from_rotation_vector(turn), Vec3(any(random), any(random), any(random))};
     const double exact = least_margin(human, root, environment), points = least_of_points(human, root, environment);
     EXPECT_LE(exact, points + 1e-9);       // no point of the surface is deeper
-    EXPECT_GE(exact, points - 0.01) << i;  // and tessellation cuts off no more than this
+    EXPECT_GE(exact, points - 0.01) << i;  // tessellation cuts off at most this much
   }
 }
 

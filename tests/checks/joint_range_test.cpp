@@ -100,8 +100,8 @@ TEST_F(JointRange, BallNextToTheMiddleIsJudgedByTheDirectionOfItsSwing) {
   EXPECT_NEAR(margin("arm_left/wrist", wrist(1e-6 * b_axis, 0.0), "swing"), 80 * kRadPerDeg - 1e-6, 1e-9);
 }
 
-// The rotations that the check takes apart are put together here: any swing across the axis and any twist come back.
-// Worst measured: 5.3e-15 rad.
+// Composes rotations from any swing and any twist, which the check must separate again. Greatest measured error:
+// 5.3e-15 rad.
 TEST_F(JointRange, BallTakesSwingAndTwistApartAsTheyWerePutTogether) {
   std::mt19937_64 engine(7);
   std::uniform_real_distribution<double> angle(-kPi, kPi), size(0.01, 3.0), twist(-3.1, 3.1);

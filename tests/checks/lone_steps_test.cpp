@@ -1,4 +1,4 @@
-// Steps that stand alone, and those that look like style.
+// Lone steps, and steps that look like intended style.
 #include "checks/lone_steps.h"
 
 #include <gtest/gtest.h>

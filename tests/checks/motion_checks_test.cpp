@@ -43,7 +43,7 @@ Library ball_library() {
   return library;
 }
 
-// One turn per second, forward as fast as `rolls` times what rolling would be.
+// A ball that turns once per second, and moves forward `rolls` times as fast as by rolling.
 std::vector<Finding> found_of_ball(double rolls, double height_m = 0.0) {
   const Character ball = small::build(ball_library(), {"ball", {}, {}});
   Motion motion = small::at_rest(ball, 60);
@@ -185,7 +185,7 @@ TEST(Residue, IsFoundWhereAnAdditiveStays) {
   EXPECT_NEAR(findings[0].worst_margin, 0.1 * kRadPerDeg - 0.01, 1e-9);
 }
 
-// Foot and leg are one limb: what the foot's action has moved is not what the leg's additive leaves behind.
+// Foot and leg are one limb: a movement by the foot's action is no residue of the leg's additive.
 TEST(Residue, IsNotJudgedWhereAnotherPartOfTheLimbActsBeforeOrAfter) {
   const auto left_by = [](const std::string& actions) {
     const Stage stage = staged(playing(actions));
@@ -226,7 +226,7 @@ std::string reach_to(const std::string& target, const std::string& more = "") {
                  "}}" + more);
 }
 
-// A tip that goes elsewhere than the generator says.
+// A tip that is not where the generator sends it.
 TEST(ReachError, SaysHowFarAPointIsMissed) {
   const Stage stage = staged(reach_to("[0.35, 1.2, 0.35]"));
   EXPECT_TRUE(found(stage, "reach_error").empty());

@@ -1,5 +1,5 @@
-// MuJoCo's own humanoid: all distances between its bodies at rest as MuJoCo measures them, and no self-collision.
-// Skipped without libmujoco or the model (shared/assets beside the repository).
+// MuJoCo's own humanoid: compares all distances between its bodies at rest with MuJoCo's; there must be no
+// self-collision. Skipped without libmujoco or the model (shared/assets beside the repository).
 #include <gtest/gtest.h>
 
 #ifdef CONTORT_HAS_MUJOCO
@@ -16,7 +16,7 @@ namespace contort {
 namespace {
 
 const std::string kHumanoid = std::string(CONTORT_SOURCE_DIR) + "/../shared/assets/robots/mjcf/mujoco/humanoid.xml";
-constexpr double kMargin_m = 10.0;  // so that MuJoCo measures every pair
+constexpr double kMargin_m = 10.0;  // large enough that MuJoCo measures every pair
 
 using Model = std::unique_ptr<mjModel, decltype(&mj_deleteModel)>;
 using Data = std::unique_ptr<mjData, decltype(&mj_deleteData)>;

@@ -1,4 +1,4 @@
-// No verdict without what it rests on: every check judges a motion, or says why it cannot.
+// Every check either judges a motion, or gives the reason why it cannot.
 #include <gtest/gtest.h>
 
 #include "tests/checks/small_character.h"

@@ -6,7 +6,7 @@
 namespace contort {
 namespace {
 
-// hips, spine, arm: each a joint above the next. The arm is 0.3 m from the spine at rest and goes to these places.
+// hips, spine, arm: each is a joint above the next. The arm is 0.3 m from the spine at rest and moves to these places.
 Asset arm_at(const std::vector<double>& x_m, int moved = 2) {
   Asset asset;
   for (const char* name : {"hips", "spine", "arm"}) {

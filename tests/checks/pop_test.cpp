@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kStep_s = 1.0 / 60.0;
 
-// Intervals of equal length at the given speeds, and whether each is a pop beyond a limit.
+// Intervals of equal length at the given speeds, each marked if it is a pop beyond a limit.
 std::string pops(const std::vector<double>& speeds_rad_s, double limit_rad_s = 50.0, double step_s = kStep_s) {
   std::vector<SpeedInterval> intervals;
   for (std::size_t i = 0; i < speeds_rad_s.size(); ++i)

@@ -1,4 +1,4 @@
-// Settings: what a file may say, moved limits, and waivers.
+// Settings: allowed contents of a file, moved limits, and waivers.
 #include "checks/settings.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ TEST(Settings, SayWhereTheyAreWrong) {
     EXPECT_FALSE(is_day(day)) << day;
 }
 
-// All ways to choose what a star stands for.
+// Tries all texts that a star can match.
 bool matches_by_trial(std::string_view pattern, std::string_view text) {
   if (pattern.empty()) return text.empty();
   if (pattern.front() != '*')

@@ -51,7 +51,7 @@ inline PartDesc arm_part() {
   part.joints = {slide, lift, wrist};
   part.colliders.push_back({"box", "slide", Box{{0, 0, 0}, {0.1, 0.1, 0.1}, {}}});
   part.sockets.push_back({"inside", "slide", {-0.1, 0, 0}, {}});
-  part.sockets.push_back({"grip", "slide", {0, 0, 0}, {}});  // at rest where the base's socket is
+  part.sockets.push_back({"grip", "slide", {0, 0, 0}, {}});  // at rest at the base's socket
   return part;
 }
 

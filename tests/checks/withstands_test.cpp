@@ -1,4 +1,4 @@
-// The push that figures withstand grows with mass and support, and is what their file says.
+// The push that figures withstand grows with mass and support, unless their file declares it.
 #include "checks/withstands.h"
 
 #include <gtest/gtest.h>
@@ -24,8 +24,8 @@ Motion resting(const Character& character, const Rigid& turn = {}) {
   return motion;
 }
 
-// 73 kg whose centre of mass is about 1 m high, some 5 cm before the heels and some 20 cm behind the toes. Measured in
-// the simulation without a step: 49 N s forward, 15 backward (docs/internals/dynamics.md).
+// 73 kg with the centre of mass about 1 m high, some 5 cm in front of the heels and some 20 cm behind the toes.
+// Measured in the simulation without a step: 49 N s forward, 15 backward (docs/internals/dynamics.md).
 TEST(Withstands, IsAsMuchAsAPersonsWeightAndSolesAllow) {
   const Character human = stock("human");
   const double forward = withstands_N_s(human, resting(human), 1, kForward);

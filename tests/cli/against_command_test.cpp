@@ -47,7 +47,7 @@ class AgainstCommand : public testing::Test {
     return folder_ / name;
   }
 
-  // A base without any failure, whose motions are others.
+  // A base without failures, with other motions.
   std::string flawless() {
     return script("flawless", "echo '" + print_line(own_hello("0.0.7")) +
                                   "'\nwhile read -r line; do\n"

@@ -50,7 +50,7 @@ TEST_F(CausesCommand, AreNotNewIfTheBaselineHasThem) {
   }
 }
 
-// One case says little against a baseline that never saw its failures: they are listed, and do not fail the build.
+// One case is weak evidence against a baseline that never saw its failures: they are listed, and do not fail the build.
 TEST_F(CausesCommand, AreRareIfOneCaseShowsThemAndTheBaselineNeverDid) {
   const std::string calm = folder_ / "calm";
   ASSERT_EQ(contort_program({"fuzz", "--profile", "tame", "--cases", "64", "--seed", "3", "--corpus", calm}).code, 0);

@@ -76,7 +76,7 @@ TEST_F(CheckCharacter, APopIsReportedOnce) {
   EXPECT_EQ(pops, 1) << clip["findings"];
 }
 
-// As the leg of an engine's solver that knows no ranges: thigh, shin and foot, the shin turned against its knee.
+// A leg as a solver without ranges leaves it: thigh, shin and foot, with the shin turned the wrong way.
 std::string bvh_of_a_leg(double shin_deg) {
   std::string text =
       "HIERARCHY\nROOT Hips\n{\nOFFSET 0 1 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nJOINT Thigh\n{\nOFFSET 0.1 0 0\n"

@@ -237,7 +237,7 @@ TEST_F(CheckClips, KeysANanosecondApartAreJudgedAsADisplayShowsThem) {
 
 TEST_F(CheckClips, FilesOfOtherKindsInAFolderAreNamed) {
   file("mixed/a.bvh", bvh_of("arm", {0, 1}));
-  file("mixed/b.dat", bvh_of("arm", {0, 1}));  // what it holds counts
+  file("mixed/b.dat", bvh_of("arm", {0, 1}));  // the contents decide, not the name
   file("mixed/c.fbx", "Kaydara FBX Binary  ");
   file("mixed/readme.txt", "hello");
   const Ran ran = contort_program({"check", folder_ / "mixed", "--all-clips"});

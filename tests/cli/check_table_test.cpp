@@ -8,7 +8,7 @@
 namespace contort {
 namespace {
 
-// An arm that turns by -1 to 2 rad, at 2 rad/s, and two fingers of which one follows the other.
+// An arm with the range -1 to 2 rad, at 2 rad/s, and two fingers, one of which follows the other.
 constexpr char kGripper[] = R"(<robot name="gripper">
 <link name="base"/><link name="arm"/><link name="finger_a"/><link name="finger_b"/>
 <joint name="arm_joint" type="revolute"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/>

@@ -38,8 +38,8 @@ std::string output_of(const std::string& command) {
   return output;
 }
 
-// The words of each call of contort in a text, up to the end of the command. In a folded text of YAML and after a
-// backslash a line goes on in the next one.
+// The words of each call of contort in a text, up to the end of the command. In folded YAML and after a backslash, the
+// next line belongs to the command.
 std::vector<std::vector<std::string>> calls_in(const std::string& text) {
   static const std::set<std::string> kEnds = {"||", "&&", "|", ";", "\\", "-", "#", ">", "[", "git"};
   std::vector<std::vector<std::string>> calls;
@@ -140,7 +140,7 @@ TEST(CiFiles, YamlParses) {
   EXPECT_EQ(count, 5);
 }
 
-// A contort that only says with which code each command ends.
+// A fake contort that only returns a given exit code for each command.
 class NightScript : public testing::Test {
  protected:
   NightScript() {

@@ -9,7 +9,7 @@ namespace {
 
 bool holds_text(const std::string& text, const std::string& what) { return text.find(what) != text.npos; }
 
-// Two legs that stand, and move by so many centimetres to the side in each of 60 frames.
+// Two legs that stand, and move to the side by this many centimetres in each of 60 frames.
 std::string standing_bvh(double step_cm, double sinks_cm = 0.0) {
   std::string text = "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation "
                      "Yrotation\n";

@@ -55,7 +55,7 @@ TEST_F(ContactsCommand, WhatItProposesCanBePutIntoTheCharactersFile) {
   spill(own + "/small.json", character.dump());
   const Ran after = contort_program(command);
   EXPECT_NE(after.out.find("all ranges: 0\n"), std::string::npos) << after.out << after.err;
-  EXPECT_EQ(Json::parse(slurp(proposed))["allowed_pairs"], character["allowed_pairs"]);  // nothing is lost
+  EXPECT_EQ(Json::parse(slurp(proposed))["allowed_pairs"], character["allowed_pairs"]);  // present pairs are kept
 }
 
 TEST_F(ContactsCommand, TakesPartsAndObjectsFromASpec) {

@@ -29,7 +29,7 @@ class StoredCorpus : public testing::Test {
     const Case stored = failing_case(spec, "joint_range", subject);
     EXPECT_TRUE(corpus_.add({stored, stored, "seed_1"}));
   }
-  // Settings under which nothing of this is a failure: as if it was fixed.
+  // Settings under which these cases are no failures, as if they were fixed.
   std::string fixed_settings() {
     const std::string path = folder_ / "fixed.json";
     std::string limits;
@@ -273,7 +273,7 @@ TEST_F(StoredCorpus, WhatPassesInTwoBuildsIsFixedAndRegressesWhenItFails) {
   EXPECT_EQ(left().state, BucketState::regressed);
 }
 
-// The motion of a failure that went may still be wrong in another way, and then somebody has to look.
+// A motion whose failure is gone may still fail in another way, and then a person must look at it.
 TEST_F(StoredCorpus, WhatFailsInAnotherWayGatesUntilItIsFixed) {
   spill(folder_ / "other.json", R"({"format": "contort.settings/1", "limits": [{"check": "joint_range", "use": "ignore",
       "reason": "as if it was fixed"}, {"check": "angular_velocity", "tolerance": -100, "reason": "fails instead"}]})");
@@ -345,7 +345,7 @@ TEST_F(StoredCorpus, ALevelIsForCaseFiles) {
   EXPECT_EQ(run({"replay", corpus_.folder_of(left()) + "/" + left().min, "--level", "clip:1/1"}).code, 1);
 }
 
-// ---- what CI reads
+// ---- files for CI
 
 TEST_F(StoredCorpus, ReportWritesWhatCiReads) {
   const Ran ran = run({"report", corpus_.folder(), "--junit", folder_ / "j.xml", "--sarif", folder_ / "s.sarif",

@@ -1,4 +1,4 @@
-// Cases that break much at once: what contort fuzz shrinks of them, and where it says what it left.
+// Cases that break many limits at once: which failures contort fuzz shrinks, and where it lists the others.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -41,8 +41,8 @@ TEST_F(CrowdedCases, NothingIsSaidOfLateOnesWhereAllAreShrunk) {
   EXPECT_EQ(all.out.find("never among"), std::string::npos) << all.out;
 }
 
-// In the bucket, and where the case is shrunk again. Seeds are tried until both were seen: which cases come
-// with others changes with the generator.
+// Other families are listed in the bucket, and when the case is shrunk again. Seeds are tried until both were seen,
+// because the generator decides which failures occur together.
 TEST_F(CrowdedCases, WhatComesWithAFailureIsToldWithIt) {
   int with_others = 0, again_with_others = 0;
   for (int seed = 1; seed <= 12 && (with_others == 0 || again_with_others == 0); ++seed) {

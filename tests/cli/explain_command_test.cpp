@@ -11,7 +11,7 @@
 namespace contort {
 namespace {
 
-// A pose out of range: whatever else is drawn, an elbow that is bent the wrong way is told.
+// A pose out of range: whatever else is drawn, an elbow that is bent the wrong way is reported.
 constexpr const char* kBent = R"({"format": "contort.spec/1", "character": {"name": "human"}, "sequences": [{"clips": [{"actions": [
   {"action": "pose", "slot": "arm_left", "duration_frames": 40, "params": {"elbow_deg": 170}}]}]}]})";
 

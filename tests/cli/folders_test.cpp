@@ -1,4 +1,4 @@
-// Folders that a user names to be filled, and that hold something else; folders of which not all can be read.
+// Output folders that contain something else, and folders that cannot be read completely.
 #include <gtest/gtest.h>
 
 #include "tests/cli/program.h"

@@ -22,7 +22,7 @@ std::string script(const std::string& words) {
   return "/usr/bin/python3 " CONTORT_SOURCE_DIR "/tests/guest/broken/" + words.substr(0, end) + ".py" + words.substr(end);
 }
 
-// The lines about faults and the notes, without what is in order.
+// Only the lines about faults and the notes.
 std::string remarks_of(const std::string& out) {
   std::string remarks;
   std::istringstream lines(out);
@@ -50,7 +50,7 @@ TEST(GeneratorCheck, SaysWhichJointsFollowOthers) {
   EXPECT_EQ(remarks_of(good.out), "");
 }
 
-// The same reason is told once, with the number of motions.
+// Equal reasons are printed once, with the number of motions.
 TEST(GeneratorCheck, CountsRefusedMotionsByTheirReason) {
   const std::string out = contort_program({"generator", "check", script("refuses")}).out;
   std::map<std::string, int> counts;

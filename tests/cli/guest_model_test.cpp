@@ -78,7 +78,7 @@ TEST_F(ModelOfAProgram, MayBeARobotWhoseJointsFollowOthers) {
   EXPECT_EQ(examine(program(without, "[0, 0, 0]", 2, convention)).out.find("follows"), std::string::npos);
 }
 
-// Balls on the links a, b and c, of which c hangs on b, and b on a.
+// Balls on the links a, b and c; c hangs on b, and b on a.
 std::string three_balls() {
   std::string urdf = R"(<robot name="arm">)";
   for (const char* link : {"a", "b", "c"})

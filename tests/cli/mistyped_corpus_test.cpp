@@ -9,7 +9,7 @@ namespace contort {
 
 namespace {
 
-// Every command that reads a corpus: a path that is mistyped makes no empty corpus, and finds nothing in it.
+// For every command that reads a corpus: a mistyped path makes no empty corpus, in which nothing would be found.
 TEST(MistypedCorpus, IsAnErrorAndMakesNothing) {
   const TempFolder folder;
   const Corpus corpus = create(folder);

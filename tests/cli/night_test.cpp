@@ -1,4 +1,4 @@
-// A night as schedulers see it: runs that are killed, shards, and what merges them.
+// A night under a scheduler: killed runs, shards, and merging.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -31,8 +31,8 @@ class Night : public ::testing::Test {
 };
 class NightSlow : public Night {};
 
-// While it starts, searches, shrinks and writes. It keeps its state once a second, so that some kills come before it
-// got on.
+// The run is killed while it starts, searches, shrinks and writes. It stores its state once a second, so some kills
+// come before any progress.
 TEST_F(NightSlow, KilledFiftyTimesAndResumedItLeavesTheSameBytes) {
   const std::string whole = folder_ / "whole", killed = folder_ / "killed";
   constexpr int kCases = 15000;

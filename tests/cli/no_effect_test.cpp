@@ -1,4 +1,4 @@
-// Options, patterns and rules that touch nothing are errors, which name what there is.
+// Options, patterns and rules without effect are errors that list the possible values.
 #include <gtest/gtest.h>
 
 #include "tests/cli/program.h"
@@ -24,7 +24,7 @@ class NoEffect : public testing::Test {
   }
   std::string walk() const { return file("walk.bvh", leg_bvh({0, 1, 2, 3, 2, 1, 0})); }
 
-  // The message on standard error; the code is 2, and nothing is on standard output.
+  // Returns the message on standard error. The code must be 2, and standard output empty.
   static std::string refusal(const std::vector<std::string>& arguments) {
     const Ran ran = contort_program(arguments);
     EXPECT_EQ(ran.code, 2) << ran.out;

@@ -1,5 +1,5 @@
-// Commands on folders that a stranger made: what lies outside is not printed, not changed and not removed, a message
-// says what is wrong, and the rest is served.
+// Commands on untrusted folders: files outside are not printed, changed or removed, a message describes the fault, and
+// everything else is processed.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -28,7 +28,7 @@ class StrangersFolder : public testing::Test {
     spill(folder_ / "elsewhere/secret.json", kSecret);
     spill(folder_ / "secret.json", kSecret);
   }
-  // The command, after which everything outside is as it was.
+  // Runs the command, and checks that everything outside is unchanged.
   Ran run(const std::vector<std::string>& arguments, int code) {
     const Tree before = outside();
     Ran ran = contort_program(arguments);
@@ -69,7 +69,7 @@ class StrangersCorpusFolder : public StrangersFolder {
     fs::remove(corpus_.folder_of(hostile_) + "/" + file);
     fs::create_symlink("../../../elsewhere/secret.json", corpus_.folder_of(hostile_) + "/" + file);
   }
-  // All that may be done with a corpus, of which one bucket cannot be trusted.
+  // All permitted operations on a corpus in which one bucket cannot be trusted.
   void expect_only_the_honest_one_is_served(const std::string& told) {
     const std::string corpus = corpus_.folder();
     const auto expect_told = [&](const Ran& ran) {
@@ -129,7 +129,7 @@ TEST_F(StrangersCorpusFolder, AReportIsNotWrittenIntoAFolderThatIsALink) {
   for (const char* own : {"strips", "cases", "rows", "viewer"}) {
     const std::string out = folder_ / ("out_" + std::string(own));
     fs::create_directories(out);
-    spill(folder_ / "elsewhere/part-1.js", "contortRows([]);");  // as if it was of an old report
+    spill(folder_ / "elsewhere/part-1.js", "contortRows([]);");  // looks like a file of an old report
     spill(folder_ / "elsewhere/joint_range-0123456789ab.js", kSecret);
     fs::create_directory_symlink(folder_ / "elsewhere", out + "/" + own);
     spill(out + "/report.json", R"({"format":"contort.report/1"})");

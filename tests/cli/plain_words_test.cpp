@@ -1,4 +1,4 @@
-// What fuzz, replay and report print for people: sentences, without the words of files, and not too many lines.
+// The output of fuzz, replay and report for people: sentences, without words of file formats, and not too many lines.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Runs the built contort and keeps what it printed.
+// Runs the built contort and captures its output.
 #pragma once
 
 #include <fcntl.h>
@@ -24,7 +24,7 @@ struct Ran {
   double peak_MB = 0.0;  // resident memory, that of this process at the fork included
 };
 
-// A running contort whose outputs go to files; or its standard output to a descriptor, or nowhere where that is closed.
+// A running contort. Its outputs go to files, or standard output to a descriptor; it may also be closed.
 class Program {
  public:
   static constexpr int kToFile = -1, kClosed = -2;

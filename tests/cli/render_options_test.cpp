@@ -1,4 +1,4 @@
-// One declaration of options for two programs: what one was given, the other reads the same.
+// Two programs share one declaration of options: the second one parses the options that the first one passes on.
 #include "cli/render_options.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ struct PictureProgram {
   explicit PictureProgram(std::vector<std::string> arguments) {
     app.add_option("FILE", files);
     add_picture_options(app, options);
-    std::ranges::reverse(arguments);  // as CLI11 wants them
+    std::ranges::reverse(arguments);  // CLI11 expects reverse order
     app.parse(std::move(arguments));
   }
 };

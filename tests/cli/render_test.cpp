@@ -15,7 +15,7 @@ const std::string kSquat = kRoot + "/docs/experiments/squat/";
 
 class Render : public testing::Test {
  protected:
-  // "" where it was drawn, else the one line that says why not.
+  // Returns "" if the strip was drawn, otherwise the line with the reason.
   std::string refusal(std::vector<std::string> arguments) {
     std::filesystem::remove(picture());
     arguments.insert(arguments.begin(), {"--library", kSquat + "actions", "render"});
@@ -58,7 +58,7 @@ TEST_F(Render, DrawsTheFramesThatAreAskedFor) {
   EXPECT_EQ(size().first, 2 * 322 + 2);
 }
 
-// A corpus may be older than the generator: what its report says of a failure then is not what the picture shows.
+// A corpus may be older than the generator; its stored values then do not belong to the picture.
 TEST_F(Render, SaysWhereItIsNotTheStoredMotion) {
   Case stored = failing_case(bent_elbow(160), "joint_range", kElbow);
   const std::string file = folder_ / "case.json";

@@ -24,7 +24,7 @@ class ReportOfCorpus : public testing::Test {
   void add(const Case& minimal, const Case& original) {
     EXPECT_TRUE(corpus_.add({.minimal = minimal, .original = original, .run = "seed_1"}));
   }
-  // The code, with what was printed.
+  // The exit code, with the output.
   Ran report(std::vector<std::string> options = {}, const std::string& gl = "none") {
     std::vector<std::string> call = {"--gl", gl, "report", corpus_.folder(), "-o", folder_ / "out"};
     call.insert(call.end(), options.begin(), options.end());
@@ -104,7 +104,7 @@ TEST_F(ReportOfCorpus, TellsNewCausesFromThoseOfTheBaseline) {
   EXPECT_NE(slurp(folder_ / "out/index.html").find("<span class='chip'>known</span>"), std::string::npos);
 }
 
-// To play it would end whoever plays it.
+// Playing such a case would end the program.
 TEST_F(ReportOfCorpus, HasNoMotionOfACaseThatEndsTheGenerator) {
   const Case crash = ending_case(bent_elbow(20), {Ending::Kind::crash, "SIGSEGV", ""});
   add(crash, crash);
@@ -130,7 +130,7 @@ TEST_F(ReportOfCorpus, DrawsEachPictureOnceAndKeepsNoOldOnes) {
   EXPECT_EQ(fs::last_write_time(folder_ / ("out/strips/" + files("strips")[0])), again);
 }
 
-// 0.1 s each, after a night in which nothing changed.
+// 0.1 s for each case, if nothing has changed since the last report.
 TEST_F(ReportOfCorpus, MakesEachCaseOnceOfTheSame) {
   ASSERT_EQ(report().code, 0);
   const std::string path = folder_ / ("out/cases/" + key() + ".js");

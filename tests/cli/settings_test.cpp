@@ -55,7 +55,7 @@ TEST_F(SettingsOfCommands, WhatIsWaivedIsInTheJson) {
   EXPECT_EQ(out["waivers"][0]["findings"], 1);
 }
 
-// A fault that somebody agreed to live with is not mended.
+// A waived fault is not repaired.
 TEST_F(SettingsOfCommands, ReplayDoesNotTakeAWaivedFailureForMended) {
   const std::string corpus = folder_ / "corpus";
   const Ran found = contort_program({"fuzz", "--profile", "stress", "--cases", "1", "--seed", "7", "--character", "human", "--corpus", corpus,

@@ -59,7 +59,7 @@ TEST_F(ShrinkCommand, KeepsTheFamilyAndSaysUnderWhichARunFilesIt) {
   EXPECT_NE(precursor, print_family(family_of(stored)));
 }
 
-// Its 150 frames are what the profile asks for: at least 120.
+// The profile requires at least 120 frames; the case has 150.
 TEST_F(ShrinkCommand, StaysWithinTheProfileThatFoundTheCase) {
   Case stored = elbow_case(270, 150);
   const auto frames_of = [&](const std::vector<std::string>& more, std::string* said = nullptr) {

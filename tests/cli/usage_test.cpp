@@ -1,4 +1,4 @@
-// Help, and everything that a user can get wrong: exit code 2 or 3 and one line that says why.
+// Help, and all mistakes of users: exit code 2 or 3 and one line with the reason.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -132,7 +132,8 @@ TEST_F(Usage, AFileOfAnotherKindIsCalledThat) {
   expect_refused({"import", zip, "-o", folder_ / "figures"}, 2, zip + " is a ZIP archive");
   expect_refused({"check", file("a.bvh", "Kaydara FBX Binary")}, 2, "a.bvh is an FBX model");
   expect_refused({"replay", file("b.json", "HIERARCHY\nROOT a")}, 2, "b.json is a BVH animation");
-  expect_refused({"check", file("b.json", "HIERARCHY\nROOT a")}, 2, "bvh.truncated");  // what it holds counts
+  // The contents decide, not the name.
+  expect_refused({"check", file("b.json", "HIERARCHY\nROOT a")}, 2, "bvh.truncated");
   expect_refused({"check", file("c.json", R"({"asset": {"version": "2.0"}})")}, 2, "c.json holds no animation");
   expect_refused({"check", file("d.urdf", "<robot name=\"a\"/>")}, 2, "d.urdf is a robot in URDF");
   expect_refused({"check", file("e.npz", "import numpy")}, 2, "e.npz is named like NumPy arrays (NPZ)");

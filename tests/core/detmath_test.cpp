@@ -111,7 +111,7 @@ TEST(Detmath, AnglesTooLargeToMeanAnythingAreNaN) {
   }
 }
 
-// Angles that test the reduction: beside multiples of pi/4, far out, and what is no angle, in rows of any length.
+// Angles that test the range reduction: near multiples of pi/4, very large, and NaN, in rows of any length.
 TEST(Detmath, ManyAtATimeAreTheSameBits) {
   std::vector<double> angles = {0.0,
                                 -0.0,
@@ -229,8 +229,8 @@ TEST(Detmath, ExpEndsInInfinityAndInZero) {
   EXPECT_TRUE(std::isnan(det::exp(kQuietNaN)));
 }
 
-// Bits, so that another constant, another order of operations or a fused multiply-add shows. Whoever changes them
-// changes every golden hash, and says so in the changelog.
+// Compares bits, to find another constant, another order of operations or a fused multiply-add. A change of them
+// changes every golden hash and must be in the changelog.
 TEST(Detmath, BitsAreTheSameEverywhere) {
   struct Spot {
     const char* what;

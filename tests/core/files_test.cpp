@@ -51,7 +51,7 @@ TEST_F(Files, AnIssueSaysWhatKindOfThingThePathNames) {
   EXPECT_EQ(read_file(at("link"), 5).issue().code, "file.unreadable");
 }
 
-// The writer has a second to come.
+// The writer has one second to open the pipe.
 TEST_F(Files, APipeThatIsNamedIsReadToItsEnd) {
   ASSERT_EQ(::mkfifo(at("pipe").c_str(), 0600), 0);
   const std::string text(200'000, 'x');  // more than a pipe holds
@@ -92,7 +92,7 @@ TEST_F(Files, AReplacedFileKeepsItsPermissions) {
   EXPECT_EQ(*read_file(at("x")), "new");
 }
 
-// In the program's own folders, which may come from strangers: what a link leads to is somebody else's.
+// In the program's own folders, which may come from strangers, a link may lead to somebody else's file.
 TEST_F(Files, ALinkInAnOwnFolderIsReplacedAndNotFollowed) {
   ASSERT_TRUE(write_file(at("precious"), "keep me").ok());
   fs::create_symlink(at("precious"), at("x"));

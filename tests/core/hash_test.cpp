@@ -70,7 +70,7 @@ TEST(Hash, TextsDoNotRunTogether) {
 TEST(Hash, ValuesAreFixedForAllTime) {
   EXPECT_EQ(to_hex(hash_of({0.0, 1.0, -2.5})), "8201ff3db4681954");
   EXPECT_EQ(content_id("contort"), "22397e29790d2a72d979a30b4bd6d43f");
-  EXPECT_EQ(content_id(""), "99aa06d3014798d86001c324468d497f");  // XXH3-128 of nothing, as xxhash's own tests say
+  EXPECT_EQ(content_id(""), "99aa06d3014798d86001c324468d497f");  // XXH3-128 of the empty text, from xxhash's own tests
 }
 
 RC_GTEST_PROP(Hash, HexComesBack, (std::uint64_t value)) {

@@ -1,4 +1,4 @@
-// Names and links that lead out of a folder are refused, and nothing outside is read or written.
+// Names and links that lead out of a folder are refused, and files outside are neither read nor written.
 #include "model/core/inside_folder.h"
 
 #include <gtest/gtest.h>
@@ -111,7 +111,7 @@ TEST_F(InsideFolder, WhatIsNoRegularFileIsNotRead) {
   EXPECT_EQ(code(read_inside(own(), "missing", kMost)), "file.unreadable");
 }
 
-// Steps of which some lead upwards: wherever a name is accepted, its path stays below the folder.
+// Random steps, some of which lead upwards: the path of every accepted name is below the folder.
 RC_GTEST_PROP(PlaceInside, WhatIsAcceptedStaysBelowTheFolder, ()) {
   const auto steps = *rc::gen::container<std::vector<std::string>>(
       rc::gen::element<std::string>("", ".", "..", "a", "b.json", "...", "/"));

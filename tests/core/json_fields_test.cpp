@@ -219,7 +219,7 @@ TEST(JsonFields, OnlyTheFirstTroubleIsReported) {
   expect_spec_refused({spec_with(R"("rate_hz": 0, "hold_frames": -1, "zzz": 1)"), "spec.out_of_range", "/rate_hz"});
 }
 
-// The message that a user sees is one line of bounded length, whatever the file holds.
+// The message for a user is one line of limited length, whatever the file contains.
 TEST(JsonFields, HostileTextNeitherBreaksNorFloodsTheLine) {
   const std::string flood(1 << 20, 'x');
   const std::string bad[] = {

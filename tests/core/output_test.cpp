@@ -1,4 +1,4 @@
-// Files that a user names to be written: what is there is neither destroyed nor replaced by something else.
+// Output files that a user names: existing files are neither destroyed nor replaced by other kinds.
 #include "model/core/output.h"
 
 #include <fcntl.h>
@@ -109,7 +109,7 @@ TEST_F(Output, ADeviceStaysADevice) {
   EXPECT_TRUE(fs::is_character_file(at("null")));
 }
 
-// A disk is not overwritten with a report, even by whoever may.
+// A disk is not overwritten with a report, even by a privileged user.
 TEST_F(Output, ADiskIsRefused) {
   if (::mknod(at("disk").c_str(), S_IFBLK | 0600, ::makedev(7, 250)) != 0)
     GTEST_SKIP() << "needs the right to make devices";

@@ -1,4 +1,4 @@
-// Case files: what is written is read back, and nothing else is read.
+// Case files: valid ones are read back unchanged, and all others are refused.
 #include "corpus/case.h"
 #include "corpus/ending_case.h"
 
@@ -94,7 +94,7 @@ TEST(CaseFile, SaysWhatWasGoingOnInTheWorstFrame) {
   evaluator.run(*stage);
   EXPECT_EQ(c.expect.phase, phase_name(phase_of(*evaluator.execution().intent, evaluator.motion(), c.expect.worst_frame)));
   EXPECT_FALSE(c.expect.phase.empty());
-  // Cases of older builds do not say it.
+  // Cases of older builds do not have this field.
   std::string text = print_case(c);
   const std::size_t at = text.find("\"phase\"");
   text.erase(at, text.find('\n', at) - at);

@@ -71,7 +71,7 @@ TEST(Cause, ASpecAloneTellsItsActionsOrItsSurroundings) {
   EXPECT_EQ(cause_without_experiments(still).names, (std::vector<std::string>{"ground"}));
 }
 
-// The reaction of a simulated figure is one cause, whatever it did when it was struck.
+// The reaction of a simulated figure is one cause, whatever the figure did when it was hit.
 TEST(Cause, AnImpactOnASimulatedFigureExplainsMoreThanItsActions) {
   Spec struck = spec_of({named_use("walk")});
   struck.dynamics.impacts.resize(1);

@@ -192,7 +192,7 @@ TEST(Leads, ThatCannotBeReadAreReportedAndTheOthersGiven) {
   EXPECT_EQ(damaged.size(), 1U);
 }
 
-// Root may write everywhere, so what is in the way here are files where folders should be, and folders for files.
+// Root may write everywhere, so the obstacles here are files in place of folders, and folders in place of files.
 TEST(CorpusUnwritable, ABucketFolderThatCannotBeMadeLosesNothing) {
   const TempFolder folder;
   const Corpus corpus = create(folder);
@@ -237,7 +237,7 @@ TEST(CorpusUnwritable, WithoutANewBucketFileTheOldOneStillNamesFilesThatAreThere
   for (const std::string& file : {bucket.min, bucket.orig, bucket.worst}) stored(corpus, bucket, file);
 }
 
-// A folder without bucket.json would be damage to everybody who reads the corpus.
+// A folder without bucket.json would be reported as damage.
 TEST(CorpusUnwritable, ABucketThatFindsNoRoomIsNotHalfThere) {
   const TempFolder folder;
   const Corpus corpus = create(folder);
@@ -253,7 +253,8 @@ TEST(CorpusUnwritable, ABucketThatFindsNoRoomIsNotHalfThere) {
   EXPECT_TRUE(damaged.empty());
 }
 
-// One adds ever cheaper cases, so that files are replaced all the time; what another reads meanwhile is whole.
+// One process adds ever cheaper cases, so that files are replaced all the time. Another one always reads complete
+// files.
 TEST(CorpusReaders, AreNotDisturbedByAWriter) {
   const TempFolder folder;
   const Corpus corpus = create(folder);

@@ -1,4 +1,4 @@
-// Damage to the files of a corpus: each kind is named, mended, and loses nothing.
+// Damage to the files of a corpus: each kind is reported and repaired, and nothing is lost.
 #include "corpus/fsck.h"
 
 #include <gtest/gtest.h>
@@ -63,7 +63,7 @@ TEST_F(Fsck, ACorpusThatWasOnlyWrittenByUsHasNoFaults) {
 }
 
 TEST_F(Fsck, ATemporaryFileOfADeadProcessGoes) {
-  spill(in_bucket("bucket.json.999999999.part"), "{");  // no system gives such a number to a process
+  spill(in_bucket("bucket.json.999999999.part"), "{");  // a process number that no system uses
   expect_mended("temporary", "999999999.part");
   EXPECT_FALSE(fs::exists(in_bucket("bucket.json.999999999.part")));
 }
@@ -162,7 +162,7 @@ TEST_F(Fsck, ABucketFileThatCannotBeReadIsMadeAnewFromTheCases) {
     spill(in_bucket("bucket.json"), bad);
     expect_mended("unreadable", "bucket.json");
     Bucket made = bucket_;
-    made.runs.clear();  // who put it there is only in the file
+    made.runs.clear();  // only the file has the names of the runs
     EXPECT_EQ(only_bucket(corpus_), made);
   }
   EXPECT_TRUE(is_aside("buckets/" + folder_name(bucket_) + "/bucket.json"));

@@ -35,7 +35,7 @@ TEST(GroupCounts, KnowTheBinomialTail) {
   EXPECT_NEAR(chance_of_as_many(0, 5, 0.3), 1.0, 1e-12);
 }
 
-// Twice as many as expected of thousands: far beyond what doubles could hold factor by factor.
+// Twice as many as expected, with thousands of sightings: single factors would exceed the range of doubles.
 TEST(GroupCounts, KnowTheTailOfManySightings) {
   EXPECT_GT(chance_of_as_many(50'500, 49'500, 0.5), 7e-4);
   EXPECT_LT(chance_of_as_many(50'500, 49'500, 0.5), 9e-4);

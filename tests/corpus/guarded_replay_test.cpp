@@ -1,4 +1,4 @@
-// Replays in a worker: what a generator does to its process on one case, it does to no other.
+// Replays in a worker: a generator that ends its process on one case does not affect other cases.
 #include "corpus/ending_case.h"
 #include "corpus/guarded_replay.h"
 
@@ -64,7 +64,7 @@ TEST(GuardedReplay, WhatCrashesOrHangsIsDifferentAndTheNextCaseIsReplayed) {
   EXPECT_EQ(guarded(bent_elbow_case(170)).verdict, Verdict::same);
 }
 
-// The worker may take as long as the stored limit says, whatever its own is.
+// The worker may take as long as the stored limit, whatever its own limit is.
 TEST(GuardedReplay, AStoredTimeoutIsGivenTheTimeInWhichItDidNotEnd) {
   Isolation two_seconds;
   two_seconds.seconds = 2;

@@ -41,7 +41,7 @@ Observation draw_observation() {
 
 std::string draw_day() { return *rc::gen::element(kBefore, kToday, kInAMonth); }
 
-// Whatever people and replays can make of a bucket.
+// Applies one of all changes by people and replays to a bucket.
 Bucket draw_step(const Bucket& bucket) {
   const int what = *rc::gen::inRange(0, 8);
   const Result<Bucket> done = what == 0   ? acknowledge(bucket, "ana", "12")
@@ -58,7 +58,7 @@ Bucket draw_bucket() {
   return bucket;
 }
 
-// ---- what always holds
+// ---- invariants
 
 RC_GTEST_PROP(Lifecycle, OnlyNewRegressedAndExpiredQuarantinesGate, ()) {
   const Bucket bucket = draw_bucket();
@@ -249,7 +249,7 @@ TEST(LifecycleTable, AFamilyIsKnownInTheBaselineOrByABucketThatDoesNotGate) {
   EXPECT_EQ(known_families(buckets, kToday, {{"new"}, {pop_of("other")}}, {}), with_baseline);
 }
 
-// The output of a replay by the other branch's contort: what fails there as well is known.
+// The output of a replay by the other branch's contort: failures that it lists are known.
 TEST(LifecycleTable, ABaselineMayBeAReplayByTheOtherBranch) {
   const TempFolder folder;
   spill(folder / "replay.json", R"([{"bucket": "pop-a", "family": "pop|x|y", "verdict": "same"},

@@ -1,4 +1,4 @@
-// Measurements of specs, and the lines in which builds tell each other of them.
+// Measurements of specs, and the lines with which builds exchange them.
 #include "corpus/measurement.h"
 
 #include <gtest/gtest.h>

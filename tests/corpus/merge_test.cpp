@@ -22,7 +22,7 @@ constexpr int kFirst = 2;  // failures of a family that go into buckets
 struct Failure {
   int index = 0;
   int subject = 0;
-  int rank = 0;             // among those of the index
+  int rank = 0;             // position among the failures of this case
   std::vector<int> also{};  // subjects of the same index that the minimal spec shows too
   int named = -1;           // subject that names the minimal spec; -1: its own
 };
@@ -68,12 +68,12 @@ RunRecord record_of(const Failures& failures, int shard, int shards) {
   return record;
 }
 
-// Leaves in the corpus what a run leaves behind: of each family its first leads; a whole run has put them into buckets,
-// but for those that the minimal spec of an earlier failure of the case shows too.
+// Stores in the corpus what a run leaves: the first leads of each family. A whole run has filed them in buckets, except
+// for those that the minimal spec of an earlier failure of the case shows too.
 void leave(const Failures& failures, int shard, int shards, const Corpus& corpus) {
   const RunRecord record = record_of(failures, shard, shards);
   ASSERT_TRUE(keep_run(corpus, record));
-  std::set<std::pair<int, int>> told;  // index and subject
+  std::set<std::pair<int, int>> told;  // pairs of index and subject
   for (const Failure& failure : failures) {
     const Lead lead = lead_of(failure);
     const std::vector<std::int64_t>& first = record.families.at(family_of(lead.original)).first_indices;
@@ -131,7 +131,7 @@ std::vector<int> draw_subjects() {
   return *rc::gen::resize(4, rc::gen::unique<std::vector<int>>(rc::gen::inRange(0, 4)));
 }
 
-// Draws for each case no, one or several failures, whose minimal specs show some of the others.
+// Draws for each case none, one or several failures, whose minimal specs show some of the others.
 Failures draw_failures() {
   Failures failures;
   for (int index = 0; index < 10; ++index)
@@ -179,8 +179,8 @@ TEST(Merge, FilesNothingThatAnEarlierFailureOfTheCaseShowsToo) {
     const Case min = *read_case(into.folder_of(bucket) + "/" + bucket.min);
     filed.insert({min.expect.subject, min.provenance.index});
   }
-  // The failures that the first shows are told with it, and those that only they would have told are not; another case
-  // tells nothing of it.
+  // Failures that the first minimal spec shows are not filed, and neither are those that only they would have covered.
+  // Another case covers none of this case's failures.
   EXPECT_EQ(filed, (std::set<std::pair<std::string, std::int64_t>>{
                        {subject_text(0), 0}, {subject_text(3), 0}, {subject_text(1), 1}}));
 }
@@ -188,7 +188,7 @@ TEST(Merge, FilesNothingThatAnEarlierFailureOfTheCaseShowsToo) {
 TEST(Merge, FilesUnderTheFamilyThatNamesTheMinimalSpec) {
   Corpora corpora;
   leave_shards({{0, 0, 0, {}, 1}, {0, 1, 1}, {0, 2, 2}}, 2, corpora);
-  Lead told = lead_of({0, 1, 1});  // with the first, which is named so
+  Lead told = lead_of({0, 1, 1});  // covered by the first failure, which has this name
   told.minimal->spec.hold_frames = 1, told.minimal->spec.sequences.resize(1);
   ASSERT_TRUE(keep_lead(corpora.all()[0], told));
   const Corpus& into = corpora.make();

@@ -1,5 +1,5 @@
-// A corpus that a stranger made: no name and no link in it leads to a file outside, whatever is done with it, and the
-// other buckets are served.
+// An untrusted corpus: none of its names and links makes an operation reach a file outside, and all other buckets are
+// processed.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -58,7 +58,7 @@ class StrangersCorpus : public testing::Test {
     spill(folder_ / "elsewhere/theirs.json.999999999.part", "theirs, too");
     outside_ = outside();
   }
-  // Everything but the corpus.
+  // Everything except the corpus.
   Tree outside() const {
     Tree tree = tree_of(folder_.path());
     std::erase_if(
@@ -68,7 +68,7 @@ class StrangersCorpus : public testing::Test {
   void expect_outside_untouched() const { EXPECT_EQ(first_difference(outside_, outside()), ""); }
   std::string in_hostile(const std::string& name) const { return corpus_.folder_of(hostile_) + "/" + name; }
 
-  // Writes what is known about the bucket, with one field that says something else.
+  // Writes bucket.json with one field changed.
   void say(const std::string& field, const std::string& text) {
     Bucket known = hostile_;
     known.state = BucketState::fixed, known.owner = "ana", known.changes = 3;
@@ -88,7 +88,7 @@ class StrangersCorpus : public testing::Test {
     fs::create_symlink(to, path);
   }
 
-  // Only the honest bucket is worked with, and the other is told.
+  // Only the honest bucket is processed, and the other one is reported.
   void expect_refused(const std::string& code) {
     std::vector<Issue> damaged;
     const std::vector<Bucket> buckets = corpus_.buckets(damaged);
@@ -187,7 +187,7 @@ TEST_F(StrangersCorpus, FsckNamesTheFieldAndMendsItWithoutLosingStateOrCases) {
   }
 }
 
-// It could be told to drop the other's original.
+// Otherwise it could make prune drop the other bucket's original.
 TEST_F(StrangersCorpus, ABucketInTheFolderOfAnotherNameChangesNoOther) {
   make_honest_one_fixed();
   const std::string liar = corpus_.folder() + "/buckets/liar";

@@ -51,7 +51,7 @@ std::string refusal(const std::string& scope) {
   return execution ? "" : execution.issue().code;
 }
 
-// The frames of a level are those of the whole motion: what came before has left the same state.
+// The frames of a level equal those of the whole motion, because earlier sequences left the same state.
 TEST(ReplayScopes, ASequenceBeginsFromTheStateThatTheOneBeforeHasLeft) {
   const Motion whole = generate(*build_stage(two_sequences(), stock_library()));
   const Motion second = play("sequence:2");
@@ -95,7 +95,7 @@ TEST(ReplayScopes, AClipCutsThoseThatGoOnBesideIt) {
   EXPECT_EQ(coord(clip, 50, human(), "arm_right/elbow"), 70 * kRadPerDeg);
 }
 
-// Interrupts that fire at a frame are the queue's own matter, others are told to it.
+// The queue starts interrupts at a frame itself; other events are reported to it.
 TEST(ReplayScopes, ALevelIsNotInterrupted) {
   for (const Event event : {Event::frame, Event::near_obstacle}) {
     Spec spec = two_sequences();
@@ -129,7 +129,7 @@ TEST(ReplayScopes, TheSequenceOfAnInterruptBeginsWhereItFires) {
   for (int f = 0; f < motion.frame_count - 1; ++f) EXPECT_EQ(posture(motion, f), posture(whole->motion, f)) << f;
 }
 
-// A seam that jumps is found when the level behind it is played alone, and what was wrong before it is not.
+// A jump at the seam is found when the second level is played alone, and earlier faults are not.
 TEST(ReplayScopes, AJumpAtTheSeamIsFoundAndWhatCameBeforeIsNot) {
   Spec spec;
   ActionUse wild = elbow(0, 30, 90);

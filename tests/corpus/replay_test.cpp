@@ -63,7 +63,7 @@ TEST(Replay, TheFirstFrameThatDiffersIsNamed) {
   stored.expect = two_steps(70).expect;
   const Replay result = replayed(stored);
   EXPECT_EQ(result.verdict, Verdict::same_family);
-  EXPECT_EQ(result.first_difference, 31);  // at frame 30 the second action is where it started
+  EXPECT_EQ(result.first_difference, 31);  // at frame 30 the second action is still at its start
 }
 
 TEST(Replay, AMotionThatEndsEarlierDiffersWhereItEnds) {

@@ -1,4 +1,4 @@
-// Cases for tests: real ones, that fail as they say, and made-up ones.
+// Cases for tests: real ones, that fail as stored, and made-up ones.
 #pragma once
 
 #include <gtest/gtest.h>

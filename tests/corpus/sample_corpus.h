@@ -1,4 +1,4 @@
-// Corpora for tests, of cases that were made up: nothing has to run to have them.
+// Corpora for tests, made from invented cases without running anything.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,8 +13,7 @@
 
 namespace contort {
 
-// A made-up case of the elbow's family. Everything that running it would show follows from the spec, as it does in
-// life.
+// An invented case of the elbow's family. Its expected results are functions of the spec, as in real cases.
 inline Case made_up(int elbow_deg, int duration, std::int64_t seed) {
   Case c;
   c.spec = bent_elbow(elbow_deg, duration);

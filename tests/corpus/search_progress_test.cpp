@@ -61,7 +61,7 @@ TEST(SearchProgress, ShardsOfOneRunCountAsOne) {
   EXPECT_EQ(progress_of(std::vector{shards[1]}).discovered, (std::vector<std::int64_t>{11})) << "a quarter of them ran";
 }
 
-// 3 of 300: with a true share of 1 %, 300 cases without any come 4.9 % of the time.
+// 3 of 300: with a true fraction of 1 %, 300 cases without a failure have a probability of 4.9 %.
 TEST(SearchProgress, WhereNothingFailedThereIsABound) {
   EXPECT_DOUBLE_EQ(unseen_share(progress_of(std::vector{run("a", 300)})), 0.01);
   EXPECT_DOUBLE_EQ(unseen_share(progress_of({})), 1.0);

@@ -1,4 +1,4 @@
-// Operations on whole corpora, and corpora that several processes or nobody may write.
+// Operations on whole corpora, and corpora that several processes or no process may write.
 #include "corpus/upkeep.h"
 
 #include <gtest/gtest.h>
@@ -68,7 +68,7 @@ TEST_F(Upkeep, RekeyNamesABucketByTodaysRulesAndKeepsItsState) {
   expect_nothing_to_do(rekey);
 }
 
-// A file of the first rules says nothing of rules.
+// A file of the first version has no version of the rules.
 TEST_F(Upkeep, BucketsOfOtherRulesAreCountedUntilTheyAreRekeyed) {
   EXPECT_EQ(named_by_other_rules(corpus_), 0);
   Bucket old = named_otherwise("made by other rules");
@@ -152,7 +152,7 @@ TEST_F(Upkeep, BeingFoundAgainIsARegressionOfWhatWasFixed) {
 
 // ---- one corpus from several
 
-// A corpus of one bucket as one machine may have it: its own cases, and what was done there.
+// A copy of a corpus with one bucket, as another machine may have it: with its own cases and changes.
 Corpus draw_copy(const TempFolder& folder) {
   const Corpus corpus = create(folder);
   const int count = *rc::gen::inRange(1, 3);
@@ -195,7 +195,7 @@ TEST_F(Upkeep, ABucketThatIsTakenBringsItsStateAndDoesNotRegressByThat) {
 
 // ---- several writers
 
-// Runs it in a child; whether it gave true.
+// Runs it in a child process, and returns its result.
 template <class Work>
 pid_t in_child(const Work& work) {
   const pid_t child = ::fork();
@@ -229,7 +229,7 @@ TEST(CorpusWriters, ALockGoesWithTheProcessThatHeldIt) {
   const Corpus corpus = create(folder);
   EXPECT_TRUE(succeeded(in_child([&] {
     const Result<CorpusLock> lock = CorpusLock::take(corpus.folder());
-    ::_exit(lock ? 0 : 1);  // as if it was killed
+    ::_exit(lock ? 0 : 1);  // as if the process was killed
     return true;
   })));
   EXPECT_TRUE(CorpusLock::take(corpus.folder()));
@@ -240,7 +240,7 @@ Issue why(const Result<T>& result) {
   return result ? Issue{"done", "", "nothing stopped it"} : result.issue();
 }
 
-// Root may write everywhere, so it becomes nobody for a while.
+// Root may write everywhere, so the test runs as the user nobody for a while.
 class AsNobody {
  public:
   AsNobody() : was_(::geteuid()) {

@@ -1,4 +1,4 @@
-// Replaying buckets: what their cases show together, and in which order they run.
+// Replaying buckets: the result of all cases of a bucket, and the order of buckets.
 #include "corpus/verify.h"
 
 #include <gtest/gtest.h>

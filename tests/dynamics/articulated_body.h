@@ -1,5 +1,5 @@
 // Forward dynamics by the articulated-body algorithm (Featherstone 2008, section 7.3) in plain 6 x 6 arrays: an oracle
-// that shares nothing with the recursions under test but the tree and its placed frames.
+// that shares only the tree and its placed frames with the recursions under test.
 #pragma once
 
 #include <array>
@@ -98,8 +98,8 @@ std::array<double, N> solved(std::array<std::array<double, N>, N> m, std::array<
   return b;
 }
 
-// Each freedom of a ball is a link of its own here: three hinges of which two have no inertia are not the same joint,
-// so balls are handled with their three columns at once.
+// A ball's three columns are handled at once here: three hinges, two of them without inertia, would not be the same
+// joint.
 inline std::vector<double> articulated_body_acceleration(const Multibody& body, const DynamicsScratch& scratch,
                                                          std::span<const double> velocity,
                                                          std::span<const double> forces, double gravity_m_s2) {

@@ -27,7 +27,7 @@ Stage kicked(const Kick& kick, Mode mode) {
   return *stage;
 }
 
-// The farthest that any joint of one coordinate goes from its first angle, and beyond its range, rad.
+// The greatest distance of any joint with one coordinate from its first angle, and beyond its range, rad.
 struct Farthest {
   double from_start_rad = 0.0, beyond_rad = 0.0;
 };

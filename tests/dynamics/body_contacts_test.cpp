@@ -1,4 +1,4 @@
-// Bodies of a figure that come near each other: arms that swing stop before the trunk and the thighs.
+// Bodies of a figure that come near each other: arms that swing stop before they reach the trunk and the thighs.
 #include "generator/dynamics/body_contacts.h"
 
 #include <gtest/gtest.h>
@@ -91,7 +91,7 @@ RC_GTEST_PROP(BodyContacts, NoSwingOfTheArmsGoesThroughABody, ()) {
   }
 }
 
-// A blow acts for 1.5 s; a figure that fell because of it goes on falling and lying.
+// A blow acts for 1.5 s; a figure that fell because of it continues to fall and lie.
 TEST(BodyContacts, KeepBodiesApartAlsoLongAfterTheBlow) {
   Spec spec;
   spec.character.name = "human", spec.dynamics.mode = Mode::dynamic, spec.hold_frames = 240;
@@ -153,7 +153,7 @@ RC_GTEST_PROP(BodyContacts, TwoBodiesOfALooseFigurePartWithoutAChangeOfItsMoment
   solver.solve(velocity);
   RC_ASSERT(length(momentum().force - before.force) < 1e-9);
   RC_ASSERT(length(momentum().moment - before.moment) < 1e-9);
-  RC_ASSERT(!solver.pushes(true) && !solver.pushes(false));  // the ground gives nothing
+  RC_ASSERT(!solver.pushes(true) && !solver.pushes(false));  // without any force from the ground
   for (const BodyContact& contact : human.bodies.contacts()) {
     double opens = 0.0;
     for_openings(human.figure.body, human.equation.dynamics, contact,

@@ -20,8 +20,7 @@ namespace {
 
 using fixtures::use;
 
-// Everything that a tick has computed when control begins, in a pose of a squat with random velocities and
-// accelerations.
+// All results of a tick before control begins, in a pose of a squat with random velocities and accelerations.
 class Tick {
  public:
   explicit Tick(std::uint64_t seed, double load_kg = 8.0) {
@@ -151,7 +150,7 @@ TEST(Control, ReliefNeverAddsToAnOverload) {
     for (const int dof : tick.figure.watched) before.push_back(tick.effort(dof));
     DynamicControl control;
     control.begin(tick.figure, 1.0 / 120);
-    const SupportArea endless;  // balance asks for nothing
+    const SupportArea endless;  // balance requires nothing
     control.correct({tick.figure, tick.dynamics, tick.mass, tick.feet.stands_by_dof(), tick.support, endless,
                      tick.ground, kGravity_m_s2 * tick.figure.body.mass_kg(), tick.acceleration, tick.forces});
     double change = 0.0;
@@ -189,7 +188,7 @@ TEST(Control, WithoutLoadsItActsExactlyWhereTheMarginIsLost) {
   EXPECT_GT(lost, 3);
 }
 
-// The same tick again and again: what control gives comes in with its lags.
+// Repeats the same tick, because the result of control comes in with its lags.
 double margin_after(Tick& tick, int ticks) {
   const double weight_N = kGravity_m_s2 * tick.figure.body.mass_kg();
   const std::vector<double> acceleration = tick.acceleration, forces = tick.forces;
@@ -217,7 +216,7 @@ TEST(Control, ReliefIsNeverPaidForWithBalance) {
   EXPECT_GT(lost, 5);
 }
 
-// With the lag of relief, 0.08 s, a third of what is missing would be back after 33 ms.
+// With the lag of relief, 0.08 s, a third of the missing margin would be back after 33 ms.
 TEST(Control, BalanceIsBackWithinFourTicks) {
   int lost = 0;
   for (std::uint64_t seed = 1; seed <= 80; ++seed) {
@@ -268,7 +267,7 @@ TEST(Control, HandlesLeaveStandingSolesWhereTheyAre) {
     }
 }
 
-// Plastic: soles stay, and what the ground gives is all that is missing in the momentum.
+// Plastic impact: soles stay, and the ground's impulse is the only difference in momentum.
 TEST(Impact, SolesStayAndMomentumIsTheBlowsAndTheGrounds) {
   Tick tick(9);
   std::vector<double> factors = tick.mass, change(tick.size(), 0.0);

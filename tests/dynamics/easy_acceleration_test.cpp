@@ -26,7 +26,8 @@ struct Resting {
   }
   std::vector<double> zeros() const { return std::vector<double>(static_cast<std::size_t>(figure.body.dof_count())); }
 
-  // The forces of one accelerated freedom without gravity: inverse dynamics, which shares nothing with the mass matrix.
+  // The forces for an acceleration of one degree of freedom without gravity, by inverse dynamics, which is independent
+  // of the mass matrix.
   void accelerate(int dof, double acceleration) {
     std::vector<double> accelerations = zeros();
     accelerations[static_cast<std::size_t>(dof)] = acceleration;
@@ -128,13 +129,13 @@ TEST(EasyAcceleration, BlendsTakeTheTimeThatItNeeds) {
   EXPECT_EQ(way_s(human, part, from, to, easy), way_s(human, part, from, to)) << "as its speed allows";
 }
 
-// The joint efforts of a rifle that is raised were up to seven times what the wrist has.
+// Without the limit, raising a rifle needed up to seven times the strength of the wrist.
 TEST(EasyAcceleration, ARifleIsRaisedWithinTheStrengthOfTheWrist) {
   Spec spec;
   spec.character.name = "human";
   spec.character.attachments.push_back({"rifle", "hand_right", "grip"});
   ActionUse aim = use("aim", "arm_right", 0, 90, {{"target_m", Vec3(-0.5, 1.3, 3.0)}, {"point", "muzzle"}});
-  aim.blend_in_frames = -1;  // as long as it needs
+  aim.blend_in_frames = -1;  // the default: as long as the distance needs
   spec.sequences = {sequence({aim})};
   spec.dynamics.mode = Mode::tracking;
   const Result<Stage> stage = build_stage(spec, stock_library());

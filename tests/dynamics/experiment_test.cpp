@@ -1,5 +1,5 @@
-// The squat of the seed's experiment (docs/experiments/squat), by numbers: (a) nothing added, (b) 5 kg on the back,
-// (c) 8 kg, (d) a blow on the left shoulder. Tracking alone against dynamic control.
+// The squat of the experiment in docs/experiments/squat, by numbers: (a) no load, (b) 5 kg on the back, (c) 8 kg, (d) a
+// blow on the left shoulder. Compares tracking with dynamic control.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -162,7 +162,7 @@ TEST(Experiment, AfterABlowItKeepsItsBalanceAndReturnsWithinItsStrength) {
   const Played tracked(kD, Mode::tracking, kTicks), controlled(kD, Mode::dynamic, kTicks);
   EXPECT_GE(tracked.frames_outside(), 1);
   EXPECT_EQ(controlled.frames_outside(), 0);
-  EXPECT_LE(controlled.largest_deviation_deg(20), 3.0);  // from the first extremum of the target on
+  EXPECT_LE(controlled.largest_deviation_deg(20), 3.0);  // after the first extremum of the target
   const int last = controlled.motion.frame_count - 1;
   EXPECT_LE(controlled.largest_deviation_deg(last), 0.1);
   for (int f = 0; f <= last; ++f) {

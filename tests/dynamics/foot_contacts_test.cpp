@@ -52,7 +52,7 @@ struct StandingHuman {
     follow(0);
     contacts.find_rows(equation);
   }
-  // The greatest speed of a led sole, of what its rows ask for.
+  // The greatest speed of a guided sole in the directions of its rows.
   double sole_speed() {
     std::vector<double> speeds(static_cast<std::size_t>(contacts.support().count));
     soles_moved_by(contacts.support(), equation.state.velocity, speeds);
@@ -194,7 +194,7 @@ TEST(ImpactResponse, TheGroundTakesLittleOfAHardBlow) {
     impact.strike(human.equation, human.contacts, kLevelGround, blow_on("torso/lumbar_rot", {blow_N_s, 0.0, 0.0}));
     const double kept_N_s = human.momentum().force.x;
     EXPECT_GT(kept_N_s, before_N_s) << blow_N_s;
-    // Friction of what the weight presses in 0.05 s, and of what the blow itself presses on one side.
+    // The friction of the weight in 0.05 s, and of the blow's own pressure on one side.
     EXPECT_GE(kept_N_s, 0.9 * blow_N_s - kFriction * 0.05 * human.equation.weight_N()) << blow_N_s;
     before_N_s = kept_N_s;
   }
@@ -251,7 +251,7 @@ TEST(LooseMotion, AFigureInTheAirFallsWithGravityAndTouchesNothing) {
   const Quat upright = human.equation.state.root.q;
   EXPECT_EQ(loose.footing(upright, upright), Footing::airborne);
   EXPECT_EQ(loose.footing(axis_angle({1, 0, 0}, 1.2) * upright, upright), Footing::fallen);
-  EXPECT_EQ(loose.footing(upright, upright), Footing::fallen);  // for good
+  EXPECT_EQ(loose.footing(upright, upright), Footing::fallen);  // permanently
 }
 
 }  // namespace

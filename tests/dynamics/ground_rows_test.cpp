@@ -1,4 +1,4 @@
-// Accelerations that ask of the ground what it can give.
+// Accelerations that the ground's forces can produce.
 #include "generator/dynamics/ground_rows.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ struct Leaning {
   Leaning() {
     Spec spec;
     spec.character.name = "human";
-    spec.dynamics.mode = Mode::dynamic;  // on bent knees: straight ones could not change the pressure
+    spec.dynamics.mode = Mode::dynamic;  // on bent knees, because straight ones could not change the pressure
     stage = *build_stage(spec, stock_library());
     stage.dynamics = nullptr;
     figure = build_figure(fixtures::human(), stage.legs, {});

@@ -18,7 +18,7 @@ std::vector<std::string> names(const DynamicFigure& figure) {
   return out;
 }
 
-// A human whose description declares its groups.
+// A human with declared control groups.
 Result<Character> declaring(std::vector<ControlGroupDesc> groups) {
   Library library = stock_library();
   library.characters.at("human").control_groups = std::move(groups);

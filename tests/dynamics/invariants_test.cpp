@@ -24,7 +24,7 @@ double largest(std::span<const double> values) {
   return most;
 }
 
-// Everything at one state, made once.
+// All data of one state, computed once.
 class Scene {
  public:
   Scene(const Character& character, std::uint64_t seed) : body_(Multibody::of(character)), random_(seed) {

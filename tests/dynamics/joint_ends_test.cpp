@@ -58,7 +58,7 @@ TEST(BallEnds, HaveNoRoomForABallThatIsOutside) {
   EXPECT_NEAR(ends.ends[0].room_rad, -0.1, 1e-4);
 }
 
-// A turn of a tick that goes no farther than each end stays inside, but for the curvature of the range.
+// A rotation in one tick that goes no farther than each end stays inside, apart from the curvature of the range.
 RC_GTEST_PROP(BallEnds, KeepATurnOfATickInside, ()) {
   const Joint ball = ball_with(thousandths(300, 1500), thousandths(300, 1500), thousandths(100, 1500));
   const double share = thousandths(-1000, 1000), across = thousandths(-1000, 1000), twist = thousandths(-1000, 1000);

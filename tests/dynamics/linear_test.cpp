@@ -21,7 +21,7 @@ Row any_row(std::size_t n, std::mt19937_64& random) {
   return row;
 }
 
-// The lower triangle of B B^T + 1/10; above it there is rubbish, which nobody may read.
+// The lower triangle of B B^T + 1/10; the upper one has garbage, which must not be read.
 Row any_system(std::size_t n, std::mt19937_64& random) {
   Row matrix(n * n, 1e300);
   for (std::size_t i = 0; i < n; ++i)
@@ -51,7 +51,7 @@ TEST(Linear, SolvesSymmetricSystemsByTheirLowerTriangle) {
   }
 }
 
-// Twice the same row: what it asks for is met, and nothing is infinite.
+// The same row twice: it is satisfied, and all values are finite.
 TEST(Linear, DependentRowsStaySmall) {
   Row matrix(4, 0.0), x = {3.0, 3.0};
   add_square(Row{1.0, 1.0}, 2.0, matrix);

@@ -14,7 +14,7 @@
 
 namespace contort::fixtures {
 
-// Whether MuJoCo's bodies have shapes that touch: those of the colliders, in the pairs of bodies that are judged.
+// Decides whether MuJoCo's bodies have colliding shapes: those of the colliders, in the judged pairs of bodies.
 enum class Shapes { none, colliders };
 
 class MujocoModel {

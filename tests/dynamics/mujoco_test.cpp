@@ -59,7 +59,7 @@ class Compared {
     worst_.inverse = std::max(worst_.inverse, difference(forces, their_inverse));
     inverse_dynamics(body_, state.velocity, zero, kGravity_m_s2, scratch_, bias);
 
-    // Forward: their acceleration under the forces that ours says.
+    // Forward dynamics: MuJoCo's acceleration under the forces that ours computes.
     mjData* data = theirs_.data();
     for (std::size_t i = 0; i < body_.links().size(); ++i) {
       const Link& link = body_.links()[i];

@@ -44,7 +44,7 @@ struct Made {
     balance = make_possible(*stage.character, stage.dynamics->figure, stage.dynamics->easy, plan, motion);
   }
 
-  // Of soles that bear, or of those in the air.
+  // The error of soles that carry weight, or of soles in the air.
   double greatest_sole_error_m(bool bears) const {
     std::vector<Rigid> world(stage.character->joints().size());
     double most = 0.0;
@@ -141,7 +141,7 @@ TEST(Possible, AFigureThatLiftsBothFeetFallsOntoTheGroundAndNotThroughIt) {
   for (std::size_t f = 0; f < motion.root.size(); ++f) ASSERT_GT(motion.root[f].p_m.y, 0.0) << f;
 }
 
-// While nothing acts from outside, the cubics of tracking miss nothing of the target.
+// Without forces from outside, the cubics of tracking follow the target exactly.
 TEST(Possible, AFigureOnWhichNothingActsStaysOnItsTarget) {
   Spec spec;
   spec.character.name = "human";
@@ -193,7 +193,7 @@ TEST(Possible, AJointThatHasArrivedIsWhereItsTargetIs) {
 }
 
 // The first joint of the tail twists by 14.4 of 15 degrees. It slowed down 0.1 s before the end of its range, although
-// its target, which stays inside, does so later: it was 1.5 degrees behind.
+// its target, which stays inside, slows down later, and was 1.5 degrees behind.
 TEST(Possible, AJointNearTheEndOfItsRangeArrivesWithItsTarget) {
   Spec spec;
   spec.character.name = "quadruped";

@@ -1,4 +1,4 @@
-// Pushes on whole figures: what fells them, what throws them, and how they fall.
+// Pushes on whole figures: which make them fall or fly, and how they fall.
 #include <gtest/gtest.h>
 
 #include <cmath>

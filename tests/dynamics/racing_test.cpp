@@ -1,4 +1,4 @@
-// Joints that would go faster than they can: what is told to do the impossible stays near what is possible.
+// Joints with impossible targets stay near the possible motion.
 #include "generator/dynamics/racing.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ double speed_of(const Link& link, std::span<const double> velocity) {
   return std::sqrt(squared);
 }
 
-// The law of both functions, for velocities from a tenth of what is bounded to ten times that.
+// The law of both functions, for velocities from a tenth of the bound to ten times the bound.
 TEST(Racing, BoundsSpeedsKeepsDirectionsAndLeavesAllElseAsItIs) {
   std::mt19937_64 random(1);
   for (const char* name : kCharacters) {

@@ -1,4 +1,4 @@
-// Characters that nobody designed: a base and a limb of up to fourteen joints of all kinds, anyhow.
+// Random characters: a base and a limb of up to fourteen joints of all kinds.
 #pragma once
 
 #include <random>

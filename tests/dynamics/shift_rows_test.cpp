@@ -15,7 +15,7 @@ std::vector<Vec3> shifts_of(std::vector<ShiftRow> rows) {
   return shift_m;
 }
 
-// A target that asks for the same in all frames stands, and goes on standing.
+// A target with the same pose in all frames keeps standing.
 TEST(ShiftRows, AreTheSameInAllFramesOfATargetThatStands) {
   for (const Vec3& shift_m : shifts_of(std::vector<ShiftRow>(50, {kSpread, kWeight_N, Vec3(-35.0, 0.0, 7.0)}))) {
     EXPECT_NEAR(shift_m.x, 0.05, 1e-12);

@@ -54,7 +54,7 @@ ImpactDesc any_blow(const Character& character, double most_N_s, std::mt19937_64
   return blow;
 }
 
-// Counts the figures that lie on the ground after such blows; every figure must stay finite and near to where it was.
+// Counts the figures that lie on the ground after such blows. Every figure must stay finite and near its start.
 int fallen_of(const std::string& name, int count, double most_N_s) {
   Spec spec = standing(name, Mode::dynamic, 60);
   const auto character = std::make_shared<const Character>(fixtures::built(spec.character));
@@ -116,7 +116,7 @@ TEST(Simulate, ALoadTooHeavyToHoldOutIsFlagged) {
   }
 }
 
-// Two minutes of squats, one after another: nothing adds up.
+// Two minutes of successive squats: errors do not accumulate.
 TEST(Simulate, TwoMinutesOfSquatsStayBounded) {
   for (const Mode mode : {Mode::tracking, Mode::dynamic}) {
     Spec spec = standing("human", mode, 0);
@@ -160,7 +160,7 @@ TEST(Simulate, ReliefOfALoadThatStaysComesToRest) {
           std::max(change, std::fabs(motion.response.control[(f + 1) * n + k] - motion.response.control[f * n + k]));
     }
   EXPECT_GT(largest, 1.0);            // it is there,
-  EXPECT_LT(change, 0.05 * largest);  // and still
+  EXPECT_LT(change, 0.05 * largest);  // still
 }
 
 // Without a share of strength that is always bearable it once fought the 15 N m of a load on an upright back.
@@ -182,7 +182,7 @@ TEST(Simulate, ABlowOfNothingIsNone) {
   EXPECT_EQ(motion_hash(with), motion_hash(without));
 }
 
-// Clamping joints one by one once tore the feet apart: with weak legs the squat is slower, but its soles stay.
+// Clamping joints one by one once pulled the feet apart. With weak legs the squat is slower, but its soles stay.
 TEST(Simulate, WithLittleStrengthASquatIsHeldBackAsAWhole) {
   Spec spec = standing("human", Mode::dynamic, 30);
   spec.start.ahead_m = 0.04;
@@ -228,7 +228,7 @@ TEST(Simulate, NamesThatAreNotThereAreErrorsWithPointers) {
       "none");
 }
 
-// A load is part of its link: forces with it are those without plus what it takes to move it along.
+// A load is part of its link: the forces with it are those without it plus the force to move it along.
 TEST(Simulate, AMergedLoadWeighsWhatItTakesToMoveIt) {
   const Character& character = fixtures::human();
   const Load load = box_load(character.find_joint("torso/lumbar_rot"), {axis_angle(Vec3(0, 1, 0), 0.4), {0, 0.2, -0.2}},

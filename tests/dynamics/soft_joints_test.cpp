@@ -171,7 +171,7 @@ TEST(SoftLegs, AFootThatIsOnItsWayInTheFirstFrameIsAboveWhereItStood) {
   }
 }
 
-// A walk rests at its ends only. Places where its feet stood on the way are nothing to keep to.
+// A walk rests only at its ends, so its intermediate foot places need not be kept.
 TEST(SoftLegs, AFootThatHasBeenCarriedElsewhereStaysWhereItIsBitByBit) {
   JoltScene scene;
   for (int f = 0; f < 120; ++f)

@@ -1,4 +1,4 @@
-// Standing feet: rows are met, and a tracked squat stays on its feet and near its target.
+// Standing feet: rows are satisfied, and a tracked squat stays on its feet and near its target.
 #include "generator/dynamics/support.h"
 
 #include <gtest/gtest.h>
@@ -83,8 +83,8 @@ TEST(Support, ProjectedAccelerationsKeepTheFeet) {
 }
 
 struct Tracked {
-  double worst_rad = 0.0;  // of any hinge, from its target
-  double drift_m = 0.0;    // of a sole
+  double worst_rad = 0.0;  // greatest distance of any hinge from its target
+  double drift_m = 0.0;    // greatest drift of a sole
 };
 
 // A squat of 1.5 s on flat feet and a second of rest at 30 Hz.

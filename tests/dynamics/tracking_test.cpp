@@ -14,7 +14,7 @@ namespace {
 
 double drawn(int low, int high) { return *rc::gen::inRange(low * 1000, high * 1000 + 1) / 1000.0; }
 
-// A body that is already on a cubic stays on it, whatever the cubic and however far the horizon.
+// A body that is already on a cubic stays on it, for any cubic and any horizon.
 RC_GTEST_PROP(Tracking, FollowsACubicExactly, ()) {
   const double a = drawn(-3, 3), b = drawn(-3, 3), c = drawn(-3, 3), d = drawn(-3, 3);
   const double end_s = drawn(1, 3) + 0.2;
@@ -121,7 +121,7 @@ RC_GTEST_PROP(Tracking, ABallAboutOneAxisIsAHinge, ()) {
   RC_ASSERT(length(ball - cubic_acceleration(from, v0, to, v1, 0.4) * axis) < 1e-9);
 }
 
-// A body on the cubic in its rotation vector stays on it: its acceleration by finite differences.
+// A body on a cubic of its rotation vector stays on it; its acceleration comes from finite differences.
 RC_GTEST_PROP(Tracking, ABallFollowsACubicOfItsRotationVector, ()) {
   const auto vec = [] { return Vec3(drawn(-1, 1), drawn(-1, 1), drawn(-1, 1)); };
   const Vec3 b = vec(), c = vec(), d = 0.5 * vec();

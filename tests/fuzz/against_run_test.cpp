@@ -1,4 +1,5 @@
-// Whole runs that compare two builds: what counts, what is stored, and that it is the same for any number of workers.
+// Whole runs that compare two builds: which failures count and are stored, with the same result for any number of
+// workers.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <unistd.h>
@@ -128,7 +129,7 @@ TEST_F(AgainstRuns, AddUpOverShards) {
   EXPECT_EQ(first_difference(tree_of(whole.folder()), tree_of(into.folder())), "");
 }
 
-// The same cases as without a base: what is drawn must not depend on the other build.
+// The cases are the same as without a base, because draws must not depend on the other build.
 TEST_F(AgainstRuns, DrawTheSameCasesAsWithoutABase) {
   RunConfig alone = compared_config(300, 2);
   alone.against.reset();
@@ -203,7 +204,7 @@ TEST_F(AgainstRuns, CountNoCrashThatTheBaseHasToo) {
   EXPECT_TRUE(buckets_of(corpus).empty());
 }
 
-// A base whose every second answer differs cannot be compared with; each failure is listed as not confirmed.
+// A base whose every second answer differs gives no comparison; each failure is listed as not confirmed.
 TEST_F(AgainstRuns, ListWhatTheBaseDoesNotRepeat) {
   const Corpus corpus = create(folder_ / "corpus");
   RunConfig config = compared_config(20, 1);

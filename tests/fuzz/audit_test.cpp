@@ -135,7 +135,7 @@ AuditRow only_row(const char* action, const char* slot) {
   return audited(options, generator).at(0);
 }
 
-// A row of which nothing moved would be clean, and say nothing.
+// A row in which nothing moves would be clean without any meaning.
 TEST(Audit, HandsHaveAWallToTouch) {
   const AuditRow row = only_row("touch", "arm_left");
   EXPECT_LT(row.still, row.draws / 2);

@@ -27,7 +27,7 @@ Comparison compared(const std::vector<SubjectMargin>& ours, const std::vector<Su
 
 std::vector<Family> pop_of(const std::string& subject) { return {{"pop", "human", subject}}; }
 
-// Findings with depths around the tolerance, some of which are not finite.
+// Findings with depths around the tolerance; some are not finite.
 std::vector<SubjectMargin> some_findings() {
   static const std::vector<double> kMargins = {-0.01, -0.1, -0.11, -0.5, -1.2, -2.5, -7.0, kNaN};
   std::vector<SubjectMargin> findings;

@@ -1,5 +1,5 @@
-// Conditions that are known, because they were planted: a generator whose motions have a NaN exactly where a condition
-// holds. The rule must name the values that the condition is about, and hold on 1,000 cases that it was not learned from.
+// Known, planted conditions: a generator whose motions have a NaN exactly if a condition holds. The rule must name the
+// values in the condition, and hold on 1,000 cases from which it was not learned.
 #include "fuzz/condition_search.h"
 
 #include <gtest/gtest.h>
@@ -33,13 +33,13 @@ std::string word_of(const Values& values, const std::string& name) {
 
 struct Planted {
   std::string name;
-  std::vector<std::string> actions;  // that the request must have
+  std::vector<std::string> actions;  // actions that the request must have
   Holds holds;
   std::vector<std::set<std::string>> must_name;  // one of each set
-  Spec example;                                  // for which it holds
+  Spec example;                                  // a spec for which it holds
 };
 
-// Admits what the built-in generator admits, and stands at rest. Two frames are enough for a NaN.
+// Admits the same specs as the built-in generator, and stands at rest. Two frames are enough for a NaN.
 class PlantedGenerator final : public Generator {
  public:
   explicit PlantedGenerator(const Planted& planted) : planted_(planted) {}
@@ -182,7 +182,7 @@ struct Shares {
   double precision = 0.0, recall = 0.0;
 };
 
-// On 1,000 draws that are neither those that the rule was learned from nor those that it was tried on.
+// Measured on 1,000 draws that were used neither for learning the rule nor for trying it.
 Shares shares_on_fresh_cases(const Condition& condition, const Case& minimal, Generator& generator) {
   const Result<Population> population = Population::like(minimal, generator);
   Evaluator evaluator(generator);
@@ -239,7 +239,7 @@ TEST(ConditionSearch, SaysAlwaysOfWhatAlwaysFails) {
   EXPECT_EQ(condition_text(*found), "Fails in 100 % of 60 fresh cases, whatever their values are.");
 }
 
-// A rule that was learned from noise does not hold on fresh cases, so none is told.
+// A rule that was learned from noise does not hold on fresh cases, so none is reported.
 TEST(ConditionSearch, TellsNoRuleForAFailureThatFollowsNone) {
   const auto noise = [](const Values& v) {
     std::uint64_t bits = std::bit_cast<std::uint64_t>(of(v, "squat.share")) ^ std::bit_cast<std::uint64_t>(of(v, "squat.seconds"));

@@ -1,4 +1,4 @@
-// The crew knows the task of each worker.
+// The crew remembers the task of each worker.
 #include "fuzz/crew.h"
 
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 namespace contort {
 namespace {
 
-// Evaluates nothing and says which case it was; settling ends the worker.
+// Returns the case's number without evaluating it; processing a failure ends the worker.
 std::string answer(const std::string& text, WorkerSlot&) {
   const Task task = parse_task(text);
   if (!std::holds_alternative<EvaluateTask>(task)) ::raise(SIGKILL);

@@ -1,4 +1,4 @@
-// Finds the actions of a minimal case that fail alone, with a generator whose actions are known exactly.
+// Finds the actions of a minimal case that fail alone, with a generator whose actions are exactly known.
 #include "fuzz/culprits.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace contort {
 namespace {
 
-// The pendulum, each of whose actions adds an angle to all hinges, which may turn by 90 degrees.
+// The pendulum. Each of its actions adds an angle to all hinges, whose range is 90 degrees.
 class AddingGenerator final : public Generator {
  public:
   const Manifest& manifest() const override { return pendulum_.manifest(); }

@@ -1,4 +1,4 @@
-// Delta debugging: nothing is left that could go, and it costs little.
+// Delta debugging: no unit that remains can be removed, and it needs few tries.
 #include "fuzz/ddmin.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ RC_GTEST_PROP(DeltaDebugging, LeavesExactlyWhatIsNeeded, ()) {
   RC_ASSERT(reduced.left == std::vector<int>(needed.begin(), needed.end()));
 }
 
-// Holds for any half of the units in whatever number: what is needed depends on what else is there.
+// Holds for any half of the units, in any number: the necessary ones depend on which others remain.
 RC_GTEST_PROP(DeltaDebugging, NoSingleUnitCanGoAfterwards, ()) {
   const auto salt = *rc::gen::inRange<unsigned>(1, 1000);
   const auto holds = [salt](const std::vector<int>& rest) {

@@ -1,4 +1,4 @@
-// The draw: a pure function of seed and index, whose every result builds and which leaves nothing out.
+// The draw is a pure function of seed and index. Every result builds, and everything occurs.
 #include "fuzz/draw.h"
 
 #include <gtest/gtest.h>
@@ -149,7 +149,7 @@ bool has_begun(const Motion& motion, std::size_t sequence) {
   return std::ranges::any_of(motion.queue, [&](const QueueSpan& s) { return std::cmp_equal(s.sequence, sequence); });
 }
 
-// An interrupt that waits for something that nothing brings about is never played.
+// An interrupt that waits for an event that nothing causes is never played.
 TEST(Draw, MostInterruptsComeIn) {
   DrawConfig config = kAll;
   config.profile.tracking = config.profile.dynamic = 0.0;

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 class QueuedFailures : public testing::Test {
  protected:
   QueuedFailures() : corpus_(create(folder_)) {
-    config_.seeds = {bent_elbow(170), bent_elbow(175)};  // so that no case has to be drawn
+    config_.seeds = {bent_elbow(170), bent_elbow(175)};  // so that no case must be drawn
     state_.record.name = "seed_1";
   }
   static SettleTask task(std::int64_t index, const Family& failed, int rank = 0) {
@@ -27,7 +27,7 @@ class QueuedFailures : public testing::Test {
     EXPECT_TRUE(job && std::holds_alternative<WantedFailure>(*job));
     return std::get<WantedFailure>(job.value());
   }
-  // As a worker keeps and hands back what it shrank.
+  // The lead as a worker stores and returns it after shrinking.
   SettledLead shrunk() const {
     SettledLead settled{{"seed_1", made_up(170, 60, 1), made_up(160, 30, 1)}, true, {}, {}};
     settled.lead.original.provenance.index = 0;

@@ -1,4 +1,4 @@
-// The search's memory: what it keeps, what it lets go, and which of it becomes an ancestor.
+// The search's memory: which cases it keeps, drops, and chooses as ancestors.
 #include "fuzz/islands.h"
 
 #include <gtest/gtest.h>
@@ -74,7 +74,7 @@ TEST(Islands, DoNotFollowASubjectThatNothingMoves) {
 
 TEST(Islands, FollowThePromisingMoreOftenAndTheRestToo) {
   Island island;
-  for (int subject = 0; subject < 8; ++subject) {  // each goes down to a nearest margin of its own
+  for (int subject = 0; subject < 8; ++subject) {  // each subject has a nearest margin of its own
     show(island, 10 * subject, own_subject(subject), 10.0);
     show(island, 10 * subject + 1, own_subject(subject), 0.5 + subject);
   }
@@ -98,7 +98,7 @@ TEST(Lineages, GuidanceComesIntoItsShareLittleByLittle) {
   EXPECT_LT(guided_from(1000), guided_from(3000));
 }
 
-// More than 400 numbers make up a case, and most mean nothing in it.
+// A case has more than 400 numbers, and most have no effect in it.
 TEST(Lineages, AMutationChangesTheSpec) {
   DrawConfig config{{"human"}};
   config.profile.staged = false;
@@ -115,7 +115,7 @@ TEST(Lineages, AMutationChangesTheSpec) {
 TEST(Lineages, AnInterruptMayComeAtAnotherTime) {
   DrawConfig config{{"human"}};
   config.profile.staged = false;
-  config.profile.uniform = 1.0;  // of parents, so that many have one interrupt
+  config.profile.uniform = 1.0;  // even draws, so that many parents have one interrupt
   int moved = 0;
   for (std::int64_t index = 0; index < 400 && moved < 3; ++index) {
     const auto spec_of = [&](const Lineage& line) {

@@ -1,4 +1,4 @@
-// A run draws some cases evenly, some crowded ones, and varies those that it has: these tests say which.
+// A run draws some cases evenly, some overlaid with others, and mutates earlier ones. These tests count each kind.
 #include "fuzz/lineage.h"
 
 #include <gtest/gtest.h>
@@ -68,7 +68,7 @@ TEST(Lineage, EveryArmHasItsShare) {
 
 // At both ends an eighth of each, but for the few that are drawn there.
 TEST(Corners, AreInSequencesAndInterruptsAndOnTheGround) {
-  std::map<std::string, std::array<int, 3>> seen;  // at 0, at the upper end, all
+  std::map<std::string, std::array<int, 3>> seen;  // number of values at 0, at the upper end, and in all
   const auto look = [&](const std::string& name, std::span<const int> numbers) {
     for (const int number : numbers) ++seen[name][2], seen[name][0] += number == 0, seen[name][1] += number == kLattice;
   };

@@ -1,4 +1,4 @@
-// The messages that go to a worker and come back.
+// The messages to a worker and back.
 #include "fuzz/messages.h"
 
 #include <gtest/gtest.h>
@@ -69,7 +69,7 @@ TEST(Messages, ReportsArriveAsTheyWereSent) {
   EXPECT_EQ(parse_report<ShrinkReport>(print_report(gone)), gone);
 }
 
-// A lead that comes in a message is the one that was kept.
+// A lead in a message equals the stored one.
 TEST(Messages, ALeadWithoutANumberKeepsThat) {
   const SettleReport report{{{"seed_1", made_up_nan(made_up(170, 60, 1)), {}}, false, {}, {}}, ""};
   const Case read = parse_report<SettleReport>(print_report(report)).settled.lead.original;

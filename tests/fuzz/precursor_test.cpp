@@ -1,4 +1,4 @@
-// The choice of the name of a failure that does not come alone.
+// The choice of the name of a failure that occurs together with others.
 #include "fuzz/precursor.h"
 
 #include <gtest/gtest.h>
@@ -84,8 +84,8 @@ std::vector<Case> draw_motion() {
   return all;
 }
 
-// Families of one motion have one order: whoever goes from precursor to precursor comes to an end, the same one by
-// whichever order they are listed in.
+// The precursors of one motion have one order: going from precursor to precursor ends at the same family, for any order
+// in which they are listed.
 RC_GTEST_PROP(PrecursorOfAMotion, IsReachedFromAllThatLeadToIt, ()) {
   std::vector<Case> motion = draw_motion();
   const auto last_of = [&] {
@@ -147,7 +147,7 @@ TEST(ShrinkToPrecursor, StaysWithWhatIsSteady) {
   EXPECT_EQ(shrunk.stopped, "fixpoint");
 }
 
-// A trial in which the elbow fails by a rule on the spec, and beside it all else that was planted.
+// A trial in which the elbow fails by a rule on the spec, together with all other planted failures.
 class PlantedMotion final : public Trial {
  public:
   explicit PlantedMotion(std::vector<Case> others) : others_(std::move(others)) {}
@@ -240,7 +240,7 @@ class NamedRuns : public testing::Test {
   TempFolder folder_;
 };
 
-// One in a while goes round: shrunk for the first the second is earlier and deeper, and the other way about.
+// Some cases form a cycle: shrunk for the first failure, the second is earlier and deeper, and vice versa.
 TEST_F(NamedRuns, NoMinimalSpecShowsWhatWouldNameItUnlessItCameByThat) {
   const Corpus corpus = small_runs::create(folder_ / "corpus");
   const RunResult result = small_runs::run(config_of(12), corpus);
@@ -264,7 +264,7 @@ TEST_F(NamedRuns, NoMinimalSpecShowsWhatWouldNameItUnlessItCameByThat) {
   EXPECT_GT(renamed, 0);
 }
 
-// With this seed a later failure of some case is told with one that is named by it.
+// With this seed a later failure of some case is covered by one that is named after it.
 TEST_F(NamedRuns, AreTheSameInShards) {
   RunConfig config = config_of(5);
   config.seed = 9;

@@ -1,4 +1,4 @@
-// Profiles: what their rules narrow, and what is refused.
+// Profiles: the effects of their rules, and refused ones.
 #include "fuzz/profile.h"
 
 #include <gtest/gtest.h>
@@ -89,7 +89,7 @@ TEST(Profile, ARuleNarrowsAParameter) {
   EXPECT_GT(right_of_middle, 5);
 }
 
-// The most actions of the spec that move one part at one time, by what the time line makes of it.
+// The greatest number of the spec's actions that move one part at a time, by the time line.
 int most_at_once(const Profile& profile, int specs) {
   int most = 0;
   for (int i = 0; i < specs; ++i) {
@@ -111,7 +111,7 @@ TEST(Profile, WithoutOverlapsEachPartIsMovedByOneActionAtATime) {
   EXPECT_GT(most_at_once(profile(""), 200), 1);
 }
 
-// A spec that does not build is passed over, and a motion of which nothing moves is clean: neither may come of a rule.
+// A spec that does not build is skipped, and a motion in which nothing moves is clean. A rule may cause neither.
 TEST(Profile, RulesThatWouldTestNothingAreRefused) {
   EXPECT_EQ(refused(R"("rules":[{"never":true}])"), "profile.nothing_moves at ");
   EXPECT_EQ(refused(R"("actions":["walk"],"slots":["head"])"), "profile.nothing_moves at ");
@@ -132,7 +132,7 @@ TEST(Profile, RulesThatWouldTestNothingAreRefused) {
             "profile.bad_rule at /rules/0/low");
 }
 
-// Half beyond what walk declares, and between two steps of 0.1 m/s.
+// The rule's range is half beyond the range of walk, and between two steps of 0.1 m/s.
 TEST(Profile, ARuleIsKeptWithinWhatTheActionDeclares) {
   int seen = 0;
   for (const char* range : {R"("low":[-900],"high":[900])", R"("low":[0.33],"high":[0.36])"}) {

@@ -1,4 +1,4 @@
-// The parts of a spec that a profile would not have drawn, and shrinking that stays within it.
+// The parts of a spec that a profile would not have drawn, and shrinking within the profile.
 #include "fuzz/profile_violations.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 Profile profile_of(const std::string& text) { return parse_profile(text).value(); }
 
-// The built-in ones, and those for planted faults.
+// The built-in profiles, and those for planted faults.
 std::vector<Profile> known_profiles() {
   std::vector<Profile> all = {Profile{}};
   for (const Profile& profile : built_in_profiles()) all.push_back(profile);

@@ -1,4 +1,4 @@
-// A round says which of its cases is next, and when it is complete.
+// A round gives out its cases in order, and is complete when all have results.
 #include "fuzz/round.h"
 
 #include <gtest/gtest.h>

@@ -46,7 +46,7 @@ RunConfig config_with_crash(std::int64_t cases, int jobs) {
 }
 const Family kCrash{"crash", "small", "SIGUSR1"};
 
-// At its peak, and of a process that begins as workers do: with what it has of this one.
+// The greatest memory of a process that starts like a worker, with this process' memory.
 std::int64_t most_bytes_of(const std::function<void()>& work) {
   const pid_t child = ::fork();
   if (child == 0) {
@@ -58,8 +58,8 @@ std::int64_t most_bytes_of(const std::function<void()>& work) {
   return std::int64_t{used.ru_maxrss} << 10;
 }
 
-// Ten minutes of dynamics need some 70 MB beside what a worker has from the start, more with a sanitizer. Half of them
-// is the limit.
+// Ten minutes of dynamics need some 70 MB in addition to the memory at a worker's start, more with a sanitizer. Half of
+// this is the limit.
 TEST_F(RunCrashes, ACaseThatNeedsTooMuchMemoryIsAFindingWithItsLimit) {
   const Corpus corpus = create(folder_ / "corpus");
   RunConfig config = config_of(1, 1);
@@ -113,7 +113,7 @@ TEST_F(RunCrashes, ThatWereStoppedFindTheSameCrashesInShrinking) {
   EXPECT_EQ(first_difference(tree_of(whole.folder()), tree_of(broken.folder())), "");
 }
 
-// It crashes once: nobody can say more about it than what was being done.
+// It crashes only once, so nothing more is known than the spec at that time.
 TEST_F(RunCrashes, ListACrashInShrinkingThatDoesNotHappenAgain) {
   const Corpus corpus = create(folder_ / "corpus"), quiet = create(folder_ / "quiet");
   RunConfig config = config_of(64, 1);

@@ -34,7 +34,7 @@ std::map<Family, std::vector<std::int64_t>> shrunk_by_the_rule(const std::vector
   return shrunk;
 }
 
-// When each family begins, and how deep it is then, negated: in this order they come.
+// The first frame and the negated depth of each family, which decide their order.
 std::map<Family, std::pair<int, double>> begins_of(const Spec& spec) {
   std::map<Family, std::pair<int, double>> begins;
   for (const Finding& f : StageEvaluator().run(*build_stage(spec, library())).findings) {
@@ -81,7 +81,7 @@ TEST_F(RunFamilies, TheEarliestOfACaseAreShrunkAndTheOthersCounted) {
   }
 }
 
-// Two failures in one motion, one after the other: where the minimal spec of the first shows the second as well, the
+// Two failures in one motion, one after the other. If the minimal spec of the first shows the second as well, the
 // second is not shrunk for a bucket of its own. A third failure whose precursor is the second may still lead to one.
 TEST_F(RunFamilies, WhatTheMinimalSpecOfAnEarlierFailureShowsTooHasNoBucketOfItsOwn) {
   const Corpus corpus = create(folder_ / "corpus");

@@ -23,7 +23,7 @@ class KeptState : public testing::Test {
     EXPECT_TRUE(keep_state(corpus_, state_));
     return load_state(corpus_, state_.record, state_.plan);
   }
-  // Expects a refusal at this place, with a message that says what to do.
+  // Expects a refusal at this place, with a message that names the remedy.
   void expect_refused(const std::string& code, const std::string& pointer) {
     const auto read = kept();
     ASSERT_FALSE(read);

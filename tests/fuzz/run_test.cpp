@@ -1,4 +1,4 @@
-// Whole runs: the same corpus for any number of workers and shards, stopped or not, and nothing lost.
+// Whole runs: the same corpus for any number of workers and shards, with or without interruption, and nothing lost.
 #include "fuzz/run.h"
 
 #include <gtest/gtest.h>
@@ -216,7 +216,7 @@ std::vector<pid_t> children() {
   return all;
 }
 
-// Every so many questions whether to stop, somebody kills a worker.
+// Kills a worker each time the run has asked this many times whether to stop.
 RunResult run_disturbed(const RunConfig& config, const Corpus& corpus, int every) {
   int asked = 0;
   return run_fuzz(
@@ -230,7 +230,7 @@ RunResult run_disturbed(const RunConfig& config, const Corpus& corpus, int every
 // A suite, and so a process, of its own: this test kills children of its process.
 using DisturbedRuns = Runs;
 
-// From outside, for want of memory perhaps: it does not happen again, so it is no failure of the case.
+// Killed from outside, for example for lack of memory: it does not happen again, so it is no failure of the case.
 TEST_F(DisturbedRuns, JudgeACaseWhoseWorkerWasKilledByItsSecondRun) {
   const Corpus quiet = create(folder_ / "quiet"), disturbed = create(folder_ / "disturbed");
   run(config_of(1000, 2), quiet);
@@ -249,8 +249,8 @@ TEST_F(DisturbedRuns, JudgeACaseWhoseWorkerWasKilledByItsSecondRun) {
   }
 }
 
-// Ten minutes of motion take longer than a tenth of a second, each time. Whether they are done in the whole second that
-// a process of their own is given, is up to the machine: then it is confirmed, else not, and kept in either case.
+// Ten minutes of motion take longer than a tenth of a second, each time. The second run has a whole second in a process
+// of its own; the machine decides whether that is enough. The failure is confirmed or not, and stored in either case.
 TEST_F(Runs, ACaseThatTakesTooLongIsAFindingThatIsTriedAgain) {
   const Corpus corpus = create(folder_ / "corpus");
   RunConfig config = config_of(1, 1);

@@ -1,4 +1,4 @@
-// Runs with a time to end at: what they did not reach waits for the next.
+// Runs with limited time: failures that they did not reach wait for the next run.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -37,7 +37,7 @@ std::set<Family> families_in(const Corpus& corpus) {
   return families;
 }
 
-// The first of these runs that found something and did not get to shrink it: nobody knows how fast the machine is.
+// The first of these runs that found a failure and had no time to shrink it; the speed of the machine is unknown.
 RunResult run_out_of_time(const Corpus& corpus) {
   RunConfig config = config_of(-1, 2);
   config.shrink.before_run = [](const Spec&) { ::usleep(50'000); };
@@ -79,7 +79,7 @@ TEST_F(TimedRuns, LeaveWhatTimeDidNotReachToTheNext) {
   expect_all_replay_as_the_same(corpus);
 }
 
-// It is the first run that put them there, whoever shrank them.
+// The first run stored them, whichever run shrinks them.
 TEST_F(TimedRuns, FileWhatWaitedUnderTheNameOfItsRun) {
   const Corpus corpus = create(folder_ / "corpus");
   const RunResult first = run_out_of_time(corpus);

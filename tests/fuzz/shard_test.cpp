@@ -1,4 +1,4 @@
-// A shard knows its share of a run from the command line, or from the variables of schedulers.
+// A shard gets its share of a run from the command line, or from the variables of schedulers.
 #include "fuzz/shard.h"
 
 #include <gtest/gtest.h>

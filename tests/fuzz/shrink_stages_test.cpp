@@ -16,7 +16,7 @@ namespace contort {
 
 namespace {
 
-// Fails as deeply as the rule says; 0: not at all.
+// Fails with the depth that the rule returns; 0: does not fail.
 class PlantedTrial final : public Trial {
  public:
   explicit PlantedTrial(std::function<double(const Spec&)> depth) : depth_(std::move(depth)) {}
@@ -87,7 +87,7 @@ TEST(ShrinkStages, ClipsAndSequencesBecomeOne) {
   EXPECT_EQ(staged_actions(result.minimal.spec), 4);
 }
 
-// It does not matter whether a motion cuts in or is the next in the queue; where something must be cut, it does.
+// An interrupt may be moved into the queue, unless the failure needs the interruption.
 TEST(ShrinkStages, WhatCutsInTakesItsTurnInTheQueueUnlessItMustCut) {
   Spec spec = spec_of({pose_use("arm_left", {})});
   InterruptDesc cut;
@@ -177,7 +177,7 @@ TEST(ShrinkStages, AFieldThatMayHaveAnyValueIsFree) {
   EXPECT_EQ(result.minimal.free_fields, expected) << pretty_spec(result.minimal.spec);
 }
 
-// At its ends and in the middle each of these fails: what it is at rest, or between, is what tells.
+// Each of these fields fails at its ends and in the middle; only its default or a quarter passes.
 TEST(ShrinkStages, AFieldWhoseDefaultOrQuarterPassesIsNotFree) {
   const Spec spec = spec_of({pose_use("leg_left", {{"hip_flex_deg", 30.0}}, 60)});
   const auto free_fields = [&](const std::function<bool(double)>& fails) {
@@ -204,7 +204,7 @@ TEST(ShrinkStages, TheWorstIsDeeperWithTheStructureOfTheMinimal) {
   EXPECT_EQ(staged_actions(result.worst.spec), 1);
 }
 
-// A margin that is no number is another fault, however deep: its minimal spec would explain nothing.
+// NaN is another fault, whatever its depth: its minimal spec would not explain the original.
 TEST(ShrinkStages, AFailureWithANumberKeepsOne) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   const Spec two = spec_of({pose_use("arm_left", {}), pose_use("arm_right", {})});
@@ -251,8 +251,8 @@ TEST(ShrinkStages, WhatDoesNotFailAnyMoreIsGone) {
   EXPECT_EQ(result.minimal.spec, healthy.spec);
 }
 
-// A trial in which the family is "planted|human|rule", and others are seen beside it: "old" in all specs, "shallow"
-// less deep than half in what does not hold, "gone" only in what holds, "later" only in what does not.
+// A trial with the family "planted|human|rule" and others beside it: "old" in all specs, "shallow" with less than half
+// the depth in specs that do not fail, "gone" only in specs that fail, "later" only in specs that do not.
 class CrowdedTrial final : public Trial {
  public:
   TrialResult run(const Spec& spec, int) override {

@@ -1,4 +1,4 @@
-// Shrinking: the same failure, never shallower than allowed, down to what the failure needs and nothing else.
+// Shrinking: the same failure, not shallower than allowed, with nothing that the failure does not need.
 #include "fuzz/shrink.h"
 
 #include <gtest/gtest.h>
@@ -175,8 +175,8 @@ TEST(ShrinkLaws, TimeThatIsUpStopsItBeforeTheNextEvaluation) {
   EXPECT_LE(least.provenance.shrink_evaluations, 4);
 }
 
-// The elbow bends to 150 degrees. With a floor of 0.24 of the 30 degrees beyond, it must reach 157.2. Nothing that asks for
-// more than 188 degrees within 30 frames gets there in time.
+// The elbow bends to 150 degrees. With a floor of 0.24 of the 30 degrees beyond, it must reach 157.2. Requests for more
+// than 188 degrees within 30 frames do not get there in time.
 Case cluttered() {
   Spec spec = spec_of({pose_use("arm_left", {{"elbow_deg", 180.0}, {"shoulder_deg", Vec3(10, 20, 30)}}, 43),
                        pose_use("leg_left", {{"knee_deg", 90.0}}), pose_use("head", {{"neck_flex_deg", 10.0}})});
@@ -192,7 +192,7 @@ Case cluttered() {
 
 TEST(ShrinkPlanted, EndsAtExactlyTheKnownMinimalSpec) {
   const Case least = shrunk(cluttered(), config(0.24, 2000));
-  EXPECT_EQ(print_spec(least.spec), print_spec(bent_elbow(160, 30)));  // 158 would do, and is no round number
+  EXPECT_EQ(print_spec(least.spec), print_spec(bent_elbow(160, 30)));  // 158 would be enough, but is no round number
   EXPECT_EQ(least.provenance.shrink_stopped, "fixpoint");
 }
 
@@ -237,8 +237,8 @@ TEST(ShrinkPlanted, TwoActionsThatNeedEachOtherBothStay) {
   EXPECT_EQ(least.spec.sequences[0].clips[0].actions.size(), 2U);
 }
 
-// Both arms slide together until they overlap by 3 cm; with the broken part, where they are is not known at all.
-// A failure that is no number must not slip to one by a hair's breadth.
+// Both arms slide together until they overlap by 3 cm; with the broken part their places are NaN. A NaN failure must
+// not become a shallow finite one.
 TEST(ShrinkPlanted, NaNStaysNaN) {
   Library library = small::library();
   PartDesc broken = small::arm_part();

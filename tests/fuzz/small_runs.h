@@ -44,7 +44,7 @@ inline RunConfig config_of(std::int64_t cases, int jobs) {
   config.shrinks_per_family = 1;
   config.shrink.max_evaluations = 12;
   config.tool = "test";
-  config.limits.seconds = 120.0;  // with sanitizers, on a busy machine, a case may take longer than the default
+  config.limits.seconds = 120.0;  // with sanitizers, on a busy machine, a case may take longer than the default limit
   return config;
 }
 
@@ -77,7 +77,7 @@ inline void expect_all_replay_as_the_same(const Corpus& corpus) {
     }
 }
 
-// Runs and is stopped after so many questions whether it should be; as the interrupt of a user does.
+// Runs, and is stopped after it has asked this many times whether to stop, as by a user's interrupt.
 inline RunResult run_until(int questions, const RunConfig& config, const Corpus& corpus) {
   int asked = 0;
   return run_fuzz(

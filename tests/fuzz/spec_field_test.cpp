@@ -1,4 +1,4 @@
-// Places of a spec that have defaults: all of them, where they say, and each by itself.
+// Fields of a spec that have defaults: all are found, with correct pointers, and each can be set separately.
 #include "fuzz/spec_field.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// A staged search tries actions alone first, then pairs and crowds of those that were clean.
+// A staged search tries actions alone first, then pairs and crowds of clean ones.
 #include "fuzz/stages.h"
 
 #include <gtest/gtest.h>
@@ -111,7 +111,7 @@ TEST(Stages, AnEpochKnowsNothingOfTheOneBefore) {
   EXPECT_EQ(known.clean, std::vector<std::int64_t>{next});
 }
 
-// So what a pair shows is shown by neither of its two actions alone.
+// So neither of the two actions alone shows the failures of the pair.
 TEST(Stages, APairDoesWhatItsSinglesDo) {
   const DrawConfig config{{"human", "mech", "quadruped"}};
   const auto actions = [&](const Lineage& lineage) {

@@ -37,7 +37,7 @@ class GeneratorBase final : public BaseBuild {
   MeasureRequest request_;
 };
 
-// A build of the pendulum that differs from the sound one in what `Change` does to its motions.
+// A build of the pendulum whose motions differ from the sound one's by `Change`.
 template <class Change>
 class ChangedSwing final : public Generator {
  public:

@@ -53,7 +53,7 @@ TEST(Actions, WeaponHoldKeepsTheHandOnTheObjectWhileItsCarrierMoves) {
 }
 
 TEST(Actions, WeaponHoldFollowsAnArmThatComesLaterInTheOrderOfSlots) {
-  // The left arm comes before the right one; the rifle is in the right hand and moves in every frame.
+  // The left arm comes before the right one. The rifle is in the right hand and moves in every frame.
   Played played(kRifleman, {use("reach", "arm_right", 0, 60, {{"target_m", Vec3(-0.12, 1.28, 0.28)}}),
                             use("weapon_hold", "arm_left", 40, 20, {})});
   for (int f = 42; f <= 60; ++f) {
@@ -128,7 +128,8 @@ TEST(Actions, LookAtFacesItsPointWhileTheBodyTurns) {
   }
 }
 
-// There are many postures that face a direction. One joint after another took one that tilts the head by 40 degrees.
+// Many postures face a direction. Solving one joint after another once gave a posture that tilts the head by 40
+// degrees.
 TEST(Actions, ADirectionTakesTheSmallestAngles) {
   Played played({}, {use("direction", "head", 0, 40, {{"azimuth_deg", 30.0}, {"elevation_deg", 15.0}})});
   double tilt_rad = 0.0, all_rad = 0.0;
@@ -142,7 +143,7 @@ TEST(Actions, ADirectionTakesTheSmallestAngles) {
   EXPECT_GT(all_rad, 40 * kRadPerDeg) << "it turns by 30 and rises by 15";
 }
 
-// Hips behind the feet are where a lean leaves them; the walk once began half a metre beside the figure.
+// A lean leaves the hips behind the feet. The walk once began half a metre beside the figure.
 TEST(Actions, AWalkAfterALeanBeginsWhereTheFigureStands) {
   ActionUse walk = use("walk", "waist", 0, 120, {{"speed_m_s", 0.6}});
   walk.blend_in_frames = 25;
@@ -202,10 +203,10 @@ TEST(Actions, TouchFindsTheWallWhileWalkingAndTellsOfTheContact) {
     forward_kinematics(*stage->character, motion.root[static_cast<std::size_t>(f)], motion.row(f), world);
     const Vec3 grip = world_from_socket(*stage->character, world, stage->character->find_socket("hand_left/grip")).p_m;
     const double gap_m = stage->environment.nearest_obstacle(grip).distance_m;
-    touching += gap_m > 0.029 && gap_m < 0.06;  // a wrist that cannot bend so far needs more
+    touching += gap_m > 0.029 && gap_m < 0.06;  // a wrist that cannot bend far enough has a greater gap
     const Vec3 palm =
         world_from_socket(*stage->character, world, stage->character->find_socket("hand_left/grip")).q * Vec3(0, 0, 1);
-    turned += palm.x > 0.5;  // towards the wall at the left; 0.18 with the wrist at rest, 0.63 as far as this arm goes
+    turned += palm.x > 0.5;  // towards the wall at the left; 0.18 with the wrist at rest, 0.63 at the limit of this arm
   }
   EXPECT_EQ(touching, 101);
   EXPECT_EQ(turned, 101);

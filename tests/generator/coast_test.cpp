@@ -1,4 +1,4 @@
-// Going on from the last step, which a blend does not do: it stays between its ends.
+// Coasting continues the last step, unlike a blend, which stays between its ends.
 #include <gtest/gtest.h>
 
 #include "generator/motion/blend.h"

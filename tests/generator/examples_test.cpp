@@ -78,7 +78,7 @@ TEST(Examples, BadOnesFailWithTheCodeThatIsTheirName) {
   }
 }
 
-// The place of the trouble in the file, for what building refuses (for reading: tests/core/json_fields_test.cpp).
+// The position of the fault in the file, for faults found by building (for reading: tests/core/json_fields_test.cpp).
 TEST(Examples, BadOnesPointToTheTrouble) {
   const std::pair<const char*, const char*> expected[] = {
       {"spec.unknown_action", "/sequences/0/clips/0/actions/0/action"},

@@ -1,5 +1,5 @@
-// An aim whose target lies behind has the torso turn, and then the figure (docs/internals/aim.md). And turns on the
-// spot alone.
+// An aim at a target behind the figure turns the torso, and then the figure (docs/internals/aim.md). Also tests turns
+// on the spot alone.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ Vec3 point_at(double azimuth_deg, double away_m = 6.0, double up_m = 1.2) {
   return {away_m * azimuth.sin, up_m, away_m * azimuth.cos};
 }
 
-// A character that plays some actions, and what came of it.
+// A character that plays some actions, and the result.
 class Aimed {
  public:
   Aimed(const CharacterChoice& choice, std::vector<ActionUse> actions) {
@@ -146,7 +146,7 @@ TEST(FurtherAction, ATailDoesNotTurnTheAnimal) {
   EXPECT_EQ(aimed.moved(), std::set<std::string>{"tail"});
 }
 
-// On the way it is no unmet request; at the end, if it has not come that far, it is one.
+// A target that is not reached on the way is no unmet request; one that is not reached at the end is.
 TEST(FurtherAction, IsAnUnmetRequestOnlyWhereItDoesNotGetThere) {
   EXPECT_TRUE(aims({"quadruped", {}, {}}, "head", point_at(150)).execution.intent->unmet.empty());
   const Aimed hurried({"human", {}, {}}, {lasting("aim", "head", 0, 80, {{"target_m", point_at(170)}})});

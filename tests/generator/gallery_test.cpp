@@ -1,4 +1,4 @@
-// The motions of docs/gallery are clean: people take them for what the generator can do.
+// The motions of docs/gallery must be clean, because they show the generator's abilities.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// From stage to motion: who moves a part, from where to where, in which frames.
+// From stage to motion: the action that moves a part, the movement, and its frames.
 #include "generator/generate.h"
 
 #include <gtest/gtest.h>
@@ -87,7 +87,8 @@ TEST(Generate, OfTwoPosesTheLaterStartWins) {
   const Stage stage = stage_of({sequence({elbow(0, 40, 90), elbow(10, 10, 20)})});
   const Motion motion = generate(stage);
   EXPECT_NEAR(coord(motion, 20, human(), kElbow), 20 * kDeg, 1e-15);
-  EXPECT_NEAR(coord(motion, 40, human(), kElbow), 20 * kDeg, 1e-15);  // the first was replaced: it does not come back
+  // The first action was replaced and does not come back.
+  EXPECT_NEAR(coord(motion, 40, human(), kElbow), 20 * kDeg, 1e-15);
   EXPECT_EQ(motion.spans, (std::vector<ActionSpan>{{0, 10, 0, 0, 0, kArm}, {11, 20, 0, 0, 1, kArm}}));
   const std::vector<ActionSpan> swapped = spans_of(stage_of({sequence({elbow(10, 10, 20), elbow(0, 40, 90)})}));
   EXPECT_EQ(swapped, (std::vector<ActionSpan>{{0, 10, 0, 0, 1, kArm}, {11, 20, 0, 0, 0, kArm}}));
@@ -183,14 +184,14 @@ TEST(Generate, BallsStayUnitQuaternionsAndAllIsFinite) {
   }
 }
 
-// The rule of docs/reference/timeline.md, by counting: in each layer the action that started last, of all so far, has
-// the part while it lasts. Further actions, which an aim acquires, take nothing from actions of the spec. A leg goes back
+// The rule of docs/reference/timeline.md, by counting: in each layer the latest action that has started controls the
+// part while it lasts. Further actions, which an aim acquires, take nothing from actions of the spec. A leg goes back
 // to the course that the root follows when its own action is over or fades. An additive may last up to half a second
 // longer, while its part is on its way back; one that moves a leg ends when a course takes the legs over.
 class SpanRule {
  public:
   explicit SpanRule(const Stage& stage) : actions_(stage.timeline.actions) {
-    for (int start = 0; const PlannedSequence& sequence : stage.timeline.sequences)  // nothing is cut here
+    for (int start = 0; const PlannedSequence& sequence : stage.timeline.sequences)  // no interrupt cuts here
       offset_.push_back(start), start += sequence.length;
   }
   int offset(const PlannedAction& a) const { return offset_[static_cast<std::size_t>(a.sequence)]; }
@@ -210,7 +211,8 @@ class SpanRule {
  private:
   bool is_last(const PlannedAction& a, int frame) const {
     if (frame < a.first_frame + offset(a) || frame > a.last_frame + offset(a)) return false;
-    return std::ranges::all_of(actions_, [&](const PlannedAction& b) {  // one that has moved already and came later
+    // An action that has moved already and started later.
+    return std::ranges::all_of(actions_, [&](const PlannedAction& b) {
       const bool competes = b.further < 0 && a.def->layer != Layer::additive && &a != &b && a.part == b.part &&
                             a.def->layer == b.def->layer && starts(b) < frame;
       return !competes ||

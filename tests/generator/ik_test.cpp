@@ -97,7 +97,7 @@ RC_GTEST_PROP(Ik, ReachPutsTheTipOnEveryReachableTarget, ()) {
   const std::vector<double> before = limb.row;
   limb.reach(target_m, lattice_number(-kPi, kPi));
   RC_ASSERT(length(limb.tip_m() - target_m) < 1e-9);
-  for (std::size_t i = 0; i < before.size(); ++i) {  // nothing but the chain was written
+  for (std::size_t i = 0; i < before.size(); ++i) {  // only the chain was written
     const auto owner =
         std::find_if(limb.character.joints().begin(), limb.character.joints().end(), [&](const Joint& j) {
           return i >= static_cast<std::size_t>(j.coord) && i < static_cast<std::size_t>(j.coord + coord_size(j.kind));
@@ -109,7 +109,7 @@ RC_GTEST_PROP(Ik, ReachPutsTheTipOnEveryReachableTarget, ()) {
 }
 
 // The case in which the smallest rotation is not unique. The elbow's bend follows from the distance alone, so a first
-// reach tells where the tip is when the shoulder is at rest.
+// reach gives the place of the tip with the shoulder at rest.
 TEST(Ik, ReachWorksOppositeToRest) {
   PosedLimb limb{human(), human().parts()[3].reach.at(0), {}, {}, std::vector<Rigid>(human().joints().size())};
   limb.row.assign(human().rest_coords().begin(), human().rest_coords().end());
@@ -189,7 +189,7 @@ RC_GTEST_PROP(Ik, HingeAnglesRecomposeAnyRotation, ()) {
   RC_ASSERT(fixtures::difference(composed(x, y, z, angles), wanted) < 1e-9);
 }
 
-// Any two hinges, not only those at right angles.
+// For any two hinges, not only for those at right angles.
 RC_GTEST_PROP(Ik, TwoHingesTurnAnAxisToEveryDirectionThatTheyCanReach, ()) {
   const HingePair pair{any_quat() * Vec3(1, 0, 0), any_quat() * Vec3(0, 0, 1), any_quat()};
   const Vec3 axis = any_quat() * Vec3(0, 1, 0);

@@ -29,7 +29,7 @@ PlannedAction action(const ActionDef& def, int first_frame, int last_frame, doub
   return planned;
 }
 
-// One sequence on one part, played by a queue whose history the test writes.
+// One sequence on one part, played by a queue whose history is given by the test.
 struct Scene {
   explicit Scene(std::vector<PlannedAction> actions, std::vector<QueueSpan> runs = {{0, 200, 0, 0}})
       : history(std::move(runs)) {
@@ -72,7 +72,7 @@ TEST(LayerStack, TheLaterActionTakesTheLayerAndTheEarlierOneDoesNotComeBack) {
   Scene scene({action(kKeyPose, 0, 60), action(kKeyPose, 20, 30)});
   scene.play_to(19);
   EXPECT_EQ(scene.stack.overwrite().action, 0);
-  EXPECT_FALSE(scene.play_to(20).overwrite_begins);  // in its first frame an action has no way behind it yet
+  EXPECT_FALSE(scene.play_to(20).overwrite_begins);  // in its first frame an action has not moved yet
   EXPECT_TRUE(scene.play_to(21).overwrite_begins);
   EXPECT_EQ(scene.stack.overwrite().action, 1);
   scene.play_to(31);
@@ -119,7 +119,7 @@ TEST(LayerStack, IkThatEndsWhereTheNextBeginsSettlesAsIfNoneFollowed) {
 }
 
 TEST(LayerStack, TheWayIsCoveredAtTheEndHoweverFarTheEasingWasAtTheTakeOver) {
-  // Cut in its middle by an interrupt of 10 frames: a goal that goes on at content frame 20 of 40.
+  // Cut in its middle by an interrupt of 10 frames: a goal that continues at content frame 20 of 40.
   Scene scene({action(kReach, 0, 40)}, {{0, 20, 0, 0}});
   scene.play_to(20);
   scene.history[0].last_frame = 20;
@@ -152,7 +152,7 @@ TEST(LayerStack, ACourseOfLegsThatFollowsLegsPlacesTheFeetAtOnceAndTheRootBlends
   leg.advance(scene.at_frame(0), 1, scene.stack.ik());
   EXPECT_TRUE(places_foot(scene.at_frame(0), leg.ik(), 1));
 
-  // A key pose has bent the leg before: then it comes to the course step by step.
+  // A key pose has bent the leg before, so it approaches the course step by step.
   Scene bent({action(kKeyPose, 0, 5), action(kWalk, 10, 60, 10.0)});
   bent.timeline.part_order = {0, 1};
   bent.timeline.of_part = {{}, {0, 1}};

@@ -235,8 +235,7 @@ TEST(Interrupts, DropTheRestIfTheyAreToldTo) {
   EXPECT_EQ(elbow_at(motion, 30), 10 * kDegree);
 }
 
-// A blow on the torso, cut at its height: 40 degrees that would be gone in one frame. What remains in the end is
-// nothing.
+// A blow on the torso, cut at its height: 40 degrees that would vanish in one frame. Nothing must remain at the end.
 TEST(Interrupts, LetAnAdditiveFadeThatTheyCut) {
   const std::vector<ActionUse> blow = {
       use("hit_reaction", "torso", 0, 60, {{"strength_deg", 40.0}, {"azimuth_deg", 0.0}})};
@@ -252,16 +251,16 @@ TEST(Interrupts, LetAnAdditiveFadeThatTheyCut) {
     }
     EXPECT_LT(least, -8 * kDegree) << resume;   // it was in full swing
     EXPECT_LT(fastest, 4 * kDegree) << resume;  // 2.8; it was 12.6 when it was gone at once
-    EXPECT_NEAR(last, 0.0, 1e-9) << resume;     // and leaves nothing
+    EXPECT_NEAR(last, 0.0, 1e-9) << resume;     // and leaves no offset
   }
 }
 
-// An action that fades out hands nothing over at its end, but here it has not faded: the head was back at rest one
+// An action that fades out normally hands nothing over at its end. Here it has not faded: the head was back at rest one
 // frame after the cut.
 TEST(Interrupts, HoldACourseThatFadesOutWhereTheyCutIt) {
   ActionUse look = use("look_at", "head", 0, 60, {{"target_m", Vec3(1.0, 1.5, 2.0)}});
   look.blend_in_frames = look.blend_out_frames = 20;
-  for (const int frame : {30, 50}) {  // in full, and while it fades
+  for (const int frame : {30, 50}) {  // without fading, and while it fades
     InterruptDesc by = interrupt(frame, {elbow(0, 30, 50)});
     by.resume = false;
     const Motion cut = play_interrupted({look}, by);
@@ -271,8 +270,8 @@ TEST(Interrupts, HoldACourseThatFadesOutWhereTheyCutIt) {
   }
 }
 
-// Cut in the middle of a stride; when the walk goes on it stands with both feet at home, and would be there at once.
-// The farthest that a hip or knee turns from one frame to the next.
+// The greatest turn of a hip or knee from one frame to the next. The walk is cut in the middle of a stride; it would
+// continue with both feet at home, and would be there at once.
 double fastest_of_legs(const Motion& motion) {
   double fastest = 0.0;
   for (int f = 1; f < motion.frame_count; ++f)

@@ -1,4 +1,4 @@
-// Legs that an action has moved come back to where their feet stood, or stay on the ground, and keep their distance and
+// Legs that an action has moved return to where their feet stood, or stay on the ground, and keep their distance and
 // speeds on the way.
 #include <gtest/gtest.h>
 
@@ -66,7 +66,7 @@ TEST(LegReturns, ALegThatIsCutWithItsFootInTheGroundIsHeldOnTheGround) {
   EXPECT_EQ(fixtures::coord(motion, 24, *mech, "leg_right/knee"), fixtures::coord(motion, 33, *mech, "leg_right/knee"));
 }
 
-// Legs do not fit a steep slope at rest: a foot that was in the ground before a blow comes back to there.
+// Legs do not fit a steep slope at rest. A foot that was in the ground before a blow returns to the same place.
 TEST(LegReturns, AHitLegThatRestedInASteepSlopeRestsThereAgain) {
   Spec spec;
   spec.environment.ground = SlopeGround{.slope_deg = 25.0, .heading_deg = -120.0};
@@ -86,7 +86,7 @@ TEST(LegReturns, ALiftedLegSlowsDownBeforeTheOtherLeg) {
     EXPECT_EQ(broken_in(fixtures::stage_of({sequence({use("reach", "leg_right", 0, 30, {{"target_m", target_m}})})},
                                            10, mech)),
               "");
-  // A foot that comes in low over the ground is lifted little by little.
+  // A foot that approaches low over the ground is lifted gradually.
   ActionUse faded = use("reach", "leg_right", 0, 33, {{"target_m", Vec3(0.0, 0.4, 0.5)}});
   faded.blend_out_frames = 13;
   EXPECT_EQ(broken_in(fixtures::stage_of({sequence({faded})}, 10, mech)), "");

@@ -142,7 +142,7 @@ TEST(LimbRoom, ALimbIsAChainOfPartsUpToABranch) {
   EXPECT_TRUE(has_arm);
 }
 
-// A figure on level ground of which no foot was seen to stand.
+// A figure on level ground none of whose feet was seen to stand.
 struct RestingRoom {
   explicit RestingRoom(const Character& character) { begin(character); }
   void begin(const Character& character) { room.begin(character, level, feet); }
@@ -201,7 +201,7 @@ TEST(LimbRoom, AHandMayTouchWhatItHoldsUntilTheNextMotion) {
   EXPECT_LT(room.room_m(arm, world), -kTooNear_m);
 }
 
-// On a hill, beside a box: bodies are near to each other, to the ground and to the box by turns.
+// On a hill, beside a box: bodies come near each other, the ground and the box in turn.
 EnvironmentDesc hill_with_box() {
   EnvironmentDesc desc;
   HeightGround hill;

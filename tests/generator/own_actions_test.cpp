@@ -78,7 +78,8 @@ TEST(OwnActions, KeyPosesStartFromWhereTheyFindThePart) {
   EXPECT_NEAR(elbow_deg(motion, 30, *human), 40.0, 1e-9);
 }
 
-// Cut in the middle of the second way, with the arm moved elsewhere meanwhile: it goes on from there, without a jump.
+// The action is cut in the middle of its second key, and the arm is moved elsewhere meanwhile: it continues from there,
+// without a jump.
 TEST(OwnActions, KeyPosesThatWereCutGoOnFromWhereTheArmIs) {
   const auto human = human_of(with({kNod}));
   Spec spec;
@@ -119,7 +120,7 @@ TEST(OwnActions, AVariantIsItsRuleWithOtherValues) {
   const Vec3 target(0.3, 1.4, 0.5);
   EXPECT_EQ(motion_hash(play(use("point", "arm_left", 0, 30, {}))),
             motion_hash(play(use("reach", "arm_left", 0, 30, {{"target_m", target}, {"swivel_deg", 15.0}}))));
-  // A spec may change what the variant gives.
+  // A spec may change the values of a variant.
   EXPECT_EQ(motion_hash(play(use("point", "arm_left", 0, 30, {{"swivel_deg", -20.0}}))),
             motion_hash(play(use("reach", "arm_left", 0, 30, {{"target_m", target}, {"swivel_deg", -20.0}}))));
 }
@@ -127,7 +128,7 @@ TEST(OwnActions, AVariantIsItsRuleWithOtherValues) {
 const std::string kShieldNod = R"({"format": "contort.action/1", "name": "nod", "parts": ["mech_arm_shield"],
   "keys": [{"at": 1.0, "pose": {"elbow_deg": 33}}]})";
 
-// Swapping the part swaps its animation; the spec says the same.
+// Swapping the part swaps its animation, with the same spec.
 TEST(OwnActions, APartBringsItsOwnVersion) {
   const Library library = with({kNod, kShieldNod});
   const auto end_deg = [&](const std::string& part) {
@@ -190,7 +191,7 @@ TEST(OwnActions, AreRefusedWithACodeAndAPlace) {
       "action.stock_part /parts/0");
 }
 
-// By kind: parts of another build cannot do it, and the spec that asks for it says so.
+// Actions by kind: parts that lack the joint cannot perform them, and a spec that uses them is refused with the reason.
 TEST(OwnActions, PartsOfAKindThatLackAJointCannotDoIt) {
   const Library library = with({R"({"format": "contort.action/1", "name": "twist", "kinds": ["arm"],
     "keys": [{"at": 1, "pose": {"wrist_rot_deg": 30}}]})"});
@@ -208,7 +209,7 @@ TEST(OwnActions, CountAsAPartOfTheCharacter) {
   const Character plain = fixtures::built({}, fixtures::tireless_library());
   EXPECT_NE(fixtures::built({}, with({kNod})).hash(), plain.hash());
   EXPECT_NE(fixtures::built({}, with({kNod})).hash(), fixtures::built({}, with({kPoint})).hash());
-  EXPECT_EQ(fixtures::built({}, with({kShieldNod})).hash(), plain.hash());  // for a part that a human has not
+  EXPECT_EQ(fixtures::built({}, with({kShieldNod})).hash(), plain.hash());  // for a part that a human does not have
 }
 
 TEST(OwnActions, TheFuzzerDrawsThem) {

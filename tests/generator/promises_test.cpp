@@ -1,4 +1,4 @@
-// Actions keep the ranges and speeds of joints by themselves, and say which requests they could not meet.
+// Actions keep the ranges and speeds of joints by themselves, and list the requests that they could not meet.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -8,7 +8,7 @@
 
 namespace contort {
 
-// For failures: what a history was.
+// Prints a history in messages of failed tests.
 std::ostream& operator<<(std::ostream& out, const QueueSpan& span) {
   return out << "[" << span.first_frame << "-" << span.last_frame << " sequence " << span.sequence << " from "
              << span.first_content << "]";
@@ -46,7 +46,7 @@ class Reference {
   const PlannedSequence& of(const Item& item) const { return s_.sequences[static_cast<std::size_t>(item.sequence)]; }
   const PlannedInterrupt& rule(int i) const { return s_.interrupts[static_cast<std::size_t>(i)]; }
 
-  // Ends the running item: `entering` and then, where it goes on later, its rest come next.
+  // Ends the running item. `entering` comes next, and then its rest if it continues later.
   void stop(std::vector<int> entering, bool rest) {
     Item item = line_.front();
     line_.pop_front();

@@ -1,4 +1,4 @@
-// The published schemas are what the readers are made from, and the readers keep to them.
+// The published schemas are made from the same field lists as the readers, and the readers accept the same documents.
 #include <gtest/gtest.h>
 
 #include <filesystem>

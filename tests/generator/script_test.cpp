@@ -1,4 +1,4 @@
-// Rules that users write in Lua: what they compute, what they are given, and what they cannot do.
+// Rules that users write in Lua: their results, their inputs and their restrictions.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -163,7 +163,7 @@ TEST(Scripts, End) {
     EXPECT_EQ(refusal_of_script(kSetsElbow, {"", line}), "action.script_failed /script/1") << line;
 }
 
-// Lua says of memory no line.
+// Lua reports no line for errors of memory.
 TEST(Scripts, StayWithinTheirMemory) {
   for (const char* line : {"local s = 'x' while true do s = s .. s end", "local function f() return 1 + f() end f()",
                            "local t = {} for i = 1, 1e9 do t[i] = i end"})

@@ -88,7 +88,7 @@ TEST(SecondHand, MotionsAreCleanInAllDirectionsAndMostReachTheObject) {
           ADD_FAILURE() << who << " " << azimuth << " " << height_m << ": " << finding.check << " " << finding.subject;
         held += !is_unmet_at_the_end(*judged.execution.intent, "weapon_hold", 180);
       }
-  EXPECT_GE(held, 24);  // of 42; where the second hand does not try again fewer arrive
+  EXPECT_GE(held, 24);  // of 42; fewer arrive if the second hand does not try again
 }
 
 TEST(SecondHand, AHoldOfAnotherObjectOrTimeIsNoneOfTheAims) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kLaw = 1e-9;
 constexpr int kSpecs = 500;
-constexpr int kLeast = 50;  // that must be judged
+constexpr int kLeast = 50;  // number of motions that must be judged
 
 template <class Visit>
 void for_sequences(Spec& spec, Visit visit) {
@@ -41,19 +41,19 @@ void keep_one_action(Spec& spec, std::int64_t which) {
   if (!actions.empty()) actions = {actions[static_cast<std::size_t>(which) % actions.size()]};
 }
 
-// Without aim: it is iterated until it is within 1e-5 rad, so its postures have that freedom. A test of its own is
-// below. Without touch: it chooses among 24 swivels, of which two may be as good. Every second spec keeps one action
-// of its first clip, as crowds of actions are nearly always hindered.
+// Without aim, which is iterated to within 1e-5 rad, so its postures may differ by as much; a separate test is below.
+// Without touch, which chooses among 24 swivels, of which two may be equally good. Every second spec keeps one action
+// of its first clip, because crowds of actions are nearly always hindered.
 Spec drawn(std::int64_t index) {
   Spec spec = draw_spec({{"human", "mech", "quadruped"}}, stock_generator(), 21, index);
-  spec.dynamics = {};  // laws of what actions make; control decides by thresholds
+  spec.dynamics = {};  // these laws are about actions; control decides by thresholds
   remove(spec, {"aim", "touch"});
   if (index % 2 == 1) keep_one_action(spec, index / 2);
   return spec;
 }
 
-// `was_hindered` is set where bodies kept a limb off, or a foot was lifted over the ground or stayed where it stood: that
-// is decided frame by frame, and by thresholds, of which rounding may be on either side.
+// `was_hindered` is set if bodies kept a limb off, or if a foot was lifted over the ground or stayed where it stood.
+// These decisions use thresholds in single frames, which rounding may cross.
 Motion play(const Spec& spec, bool& was_hindered, const Library& library = stock_library()) {
   const Result<Stage> stage = build_stage(spec, library);
   EXPECT_TRUE(stage.ok()) << (stage.ok() ? "" : to_line(stage.issue())) << pretty_spec(spec);
@@ -102,10 +102,10 @@ TEST(Symmetry, AMovedSceneGivesTheMovedMotion) {
 
 bool is_course_of_legs(const std::string& action) { return find_action(action)->spread == Spread::legs; }
 
-// Starts on whole frames, so that the frames of the plain motion are every second one of the slow motion. Blends have
-// lengths of content: those that take their time take the same time at any speed, and so do those of courses of legs
-// that are too short for the way. A leg that leaves a course to reach does so a frame later, which is half a frame of
-// content in the slow motion: it may find another way there.
+// Starts on whole frames, so that the frames of the plain motion are every second one of the slow motion. Lengths of
+// blends are of content. Automatic blends take the same time at any speed, and so do those of courses of legs that are
+// too short for the distance. A leg that leaves a course to reach does so a frame later, which is half a frame of
+// content in the slow motion, so it may take another path.
 Spec whole_frames(std::int64_t index) {
   Spec spec = drawn(index);
   spec.interrupts.clear();
@@ -179,8 +179,8 @@ std::string other_side(std::string slot) {
   return slot;
 }
 
-// A parameter as it must be for the mirrored action. Parts on the right are mirrored already, so hinges keep their
-// angles on the other side; in the middle what turns about y or z changes its sign.
+// The value of a parameter for the mirrored action. Parts on the right are mirrored already, so hinges keep their
+// angles on the other side; in the middle, rotations about y or z change their sign.
 ParamValue mirrored(const Character& character, const ActionUse& use, const std::string& name,
                     const ParamValue& value) {
   if (use.action == "pose") {

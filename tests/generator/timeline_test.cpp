@@ -45,7 +45,7 @@ TEST(Timeline, SpeedTwoHalvesTheLengthOfAClip) {
   EXPECT_EQ(timeline.actions[0].end, 8 + 20.0);
 }
 
-// Content of a clip that is stretched to twice its length comes at twice the distance from its start.
+// Content of a clip that is stretched to twice its length comes at twice the time from its start.
 RC_GTEST_PROP(Timeline, StretchedClipsPlayTheSameContentAtAnotherPace, ()) {
   const int first = *rc::gen::inRange(0, 60);
   const int length = *rc::gen::inRange(1, 60);
@@ -61,7 +61,7 @@ RC_GTEST_PROP(Timeline, StretchedClipsPlayTheSameContentAtAnotherPace, ()) {
     RC_ASSERT(std::fabs(progress(b, factor * frame) - progress(a, frame)) < 1e-12);
 }
 
-// 7 * (29.0 / 7) is more than 29: before this test such a sequence took a frame too many.
+// 7 * (29.0 / 7) is more than 29: such a sequence once took a frame too many.
 TEST(Timeline, StretchedLengthsAreExactly) {
   for (int natural = 1; natural <= 120; ++natural)
     for (int wanted = 1; wanted <= 120; ++wanted) {

@@ -106,7 +106,8 @@ TEST(DistanceExemplars, SphereWithinABoxCountsTheShortWayOut) {
   EXPECT_NEAR(between(Sphere{{0, 0, 0}, 0.1}, Sphere{{0, 0, 0}, 0.2}), -0.3, 1e-15);
 }
 
-// A box of 10 micrometres stands on its edge beside a large one: what parts them is a face of the small box.
+// A box of 10 micrometres stands on its edge beside a large one. The separating direction is the normal of a face of
+// the small box.
 TEST(DistanceExemplars, TinyBoxesAreMeasuredAsWellAsLargeOnes) {
   for (const double size : {1.0, 1e-3, 1e-5, 1e-7}) {
     const Box tall{{0, 0, 0}, {0.5 * size, 5 * size, 5 * size}, {0, 0, 45}};

@@ -1,8 +1,8 @@
-// signed_distance against FCL, for all sixteen pairs of cores. FCL iterates, and is now and then the one that is wrong.
-// It has two solvers: where libccd's differs from us, FCL's own is asked; where that differs too, descent (solids.h),
-// which shares no code with any of them, has to side with us. Such pairs are counted. Its own distance of overlapping
-// solids is no use, as its penetration can abort the process; its contacts give the depth in some direction, which is
-// never less than the least.
+// Compares signed_distance with FCL, for all sixteen pairs of cores. FCL iterates, and is sometimes wrong. It has two
+// solvers: if libccd's differs from ours, FCL's own is used; if that differs too, descent (solids.h), which shares no
+// code with any of them, must agree with ours. Such pairs are counted. FCL's distance of overlapping solids is not
+// used, because its penetration can abort the process; its contacts give the depth in some direction, which is never
+// less than the least.
 #ifdef CONTORT_HAS_FCL
 
 #include <fcl/narrowphase/collision.h>
@@ -54,7 +54,7 @@ fcl::Transform3d pose_of(const Solid& s) {
   return to_fcl(Mat3(x, glm::cross(s.axis, x), s.axis), s.center_m);
 }
 
-struct Known {  // in its own frame, with its counterpart
+struct Known {  // in its own frame, with FCL's counterpart
   Solid solid;
   std::shared_ptr<fcl::CollisionGeometryd> geometry;
 };

@@ -1,4 +1,4 @@
-// Nearest and deepest points against what signed_distance says of the solids, and of the points.
+// Compares nearest and deepest points with signed_distance of the solids, and of the points.
 #include "model/geometry/nearest_points.h"
 
 #include <gtest/gtest.h>

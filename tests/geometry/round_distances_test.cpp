@@ -1,5 +1,5 @@
-// Pairs of spheres and capsules together, against one pair at a time: the same bits, whatever instructions the machine
-// has.
+// Compares pairs of spheres and capsules together with one pair at a time: the bits are equal, for all instructions of
+// the machine.
 #include "model/geometry/round_distances.h"
 
 #include <gtest/gtest.h>

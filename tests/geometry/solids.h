@@ -1,6 +1,6 @@
 // Random solids, and oracles for their distance that share no code with checks/. Every core is a sum: of its centre, of
-// generators, each times a number in [-1, 1], and, for a hull, of a mean of its points. So is the difference of two
-// cores, and a distance of cores is that of the origin from such a sum.
+// generators times numbers in [-1, 1], and, for a hull, of a mean of its points. The difference of two cores is such a
+// sum too, and the distance of cores is that of the origin from it.
 #pragma once
 
 #include <algorithm>
@@ -172,6 +172,6 @@ inline const char* name_of(Core core) {
 }
 
 inline constexpr Core kCores[] = {Core::point, Core::segment, Core::box, Core::hull};
-inline constexpr double kNoBand = 1e9;  // greater than any distance here: everything is exact
+inline constexpr double kNoBand = 1e9;  // greater than any distance here, so all results are exact
 
 }  // namespace contort::test_solids

@@ -1,4 +1,4 @@
-// A fault in one channel does not refuse the others, if the reader is told to go around it.
+// A reader that skips faults reads all channels except for those with a fault.
 #include <gtest/gtest.h>
 
 #include <cstring>

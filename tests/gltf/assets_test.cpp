@@ -1,4 +1,4 @@
-// Real files, which nobody in the project wrote: shared/assets beside the repository. Skipped where they are not.
+// Real files from other people: shared/assets beside the repository. Skipped if they are missing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ std::vector<ManifestRow> manifest() {
   return out;
 }
 
-// Read once for all tests but the one that takes the time.
+// Each file is read once for all tests, except for the test of the reading time.
 const Result<Asset>& cached(const std::string& path) {
   static std::map<std::string, Result<Asset>> read;
   const auto found = read.find(path);
@@ -153,7 +153,8 @@ std::vector<std::string> all_gltf_files() {
   return out;
 }
 
-// The verdicts of all files, beside this test: "ok" or the code of the issue. Each refusal was looked at.
+// The expected results of all files, beside this test: "ok" or the code of the issue. Each refusal was examined by
+// hand.
 std::map<std::string, std::string> stored_verdicts() {
   std::map<std::string, std::string> out;
   std::ifstream file(std::string(CONTORT_SOURCE_DIR) + "/tests/gltf/asset_verdicts.tsv");
@@ -175,7 +176,7 @@ TEST(SharedAssets, EveryFileGetsTheSameCleanAnswerQuickly) {
         << "new line: " << name << "\t" << verdict << (asset.ok() ? "" : "  " + to_line(asset.issue()));
   }
   const double cpu_s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  EXPECT_LT(cpu_s, 30.0);  // 1 s alone on a machine; 5 s under ASan beside others, by the clock
+  EXPECT_LT(cpu_s, 30.0);  // 1 s alone on a machine; 5 s under ASan on a busy one
 }
 
 // Files that the Khronos validator finds no error in, and that we refuse all the same.
@@ -198,7 +199,7 @@ TEST(SharedAssets, ValidFilesAreReadExceptForThreeReasons) {
   }
 }
 
-// Every pose of every clip, sampled past both ends, is finite: what was read can be used.
+// Every pose of every clip, sampled beyond both ends, is finite, so the assets can be used.
 TEST(SharedAssets, EveryClipGivesFinitePoses) {
   SKIP_WITHOUT_ASSETS();
   for (const std::string& path : all_gltf_files()) {

@@ -29,7 +29,7 @@ class GltfFiles : public ::testing::Test {
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;
   }
-  // small_arm as text beside its buffer.
+  // small_arm as text, with its buffer in a file beside it.
   Result<Asset> read_with_uri(const std::string& uri) const {
     Json root = small_arm().document();
     root["buffers"][0]["uri"] = uri;

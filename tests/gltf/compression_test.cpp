@@ -1,4 +1,4 @@
-// glTF whose numbers are compressed or quantised, and channels that name their target by a pointer.
+// glTF with compressed or quantised numbers, and channels that name their target by a pointer.
 #include <draco/compression/encode.h>
 #include <draco/mesh/triangle_soup_mesh_builder.h>
 #include <gtest/gtest.h>

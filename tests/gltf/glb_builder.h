@@ -89,8 +89,8 @@ struct GlbBuilder {
   ByteList glb() const { return pack_glb(document().dump(), bin); }
 };
 
-// Three joints in a chain with a skin, and two clips: a turn of the first joint by a quarter in one second, and a move
-// of the third. Everything that read_gltf looks at occurs once.
+// Three joints in a chain with a skin, and two clips: a quarter turn of the first joint in one second, and a movement
+// of the third. It has every feature that read_gltf reads once.
 inline GlbBuilder small_arm() {
   GlbBuilder b;
   b.root["nodes"] = {{{"name", "upper"}, {"children", {1}}, {"translation", {0, 1, 0}}},

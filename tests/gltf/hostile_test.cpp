@@ -73,7 +73,7 @@ const Hostile kHostile[] = {
      "/accessors/1/bufferView"},
     {"buffer", [](GlbBuilder& b) { b.root["bufferViews"][0]["buffer"] = 99; }, "gltf.bad_index",
      "/bufferViews/0/buffer"},
-    // Lists and values of another type; tinygltf drops them and goes on.
+    // Lists and values of another type, which tinygltf drops silently.
     {"nodes are an object", [](GlbBuilder& b) { b.root["nodes"] = Json::object(); }, "gltf.bad_index",
      "/scenes/0/nodes/0"},
     {"node is a number", [](GlbBuilder& b) { b.root["nodes"][1] = 5; }, "gltf.wrong_type", "/nodes/1"},
@@ -302,7 +302,7 @@ TEST(HostileGltf, NoBufferMayBeAFileWhereThereIsNoFolder) {
   EXPECT_EQ(result.issue().code, "gltf.bad_uri");
 }
 
-// Whatever changes, the answer is an asset or an issue. Run under ASan and UBSan in the dev preset.
+// After any change, the result is an asset or an issue. Run under ASan and UBSan in the dev preset.
 RC_GTEST_PROP(HostileGltfProperty, ChangedBytesNeverCrash, ()) {
   ByteList glb = small_arm().glb();
   const auto changes = *rc::gen::container<std::vector<std::pair<std::uint16_t, std::uint8_t>>>(

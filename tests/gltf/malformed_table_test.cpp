@@ -1,5 +1,6 @@
-// The malformed files of shared/assets, each in a process of its own, beside what Khronos' glTF validator says of them.
-// Prints a table; whatever differs has its reason in validator_differences.tsv. Skipped where the files are not.
+// The malformed files of shared/assets, each in a process of its own, compared with the results of Khronos' glTF
+// validator. Prints a table. Each difference has its reason in validator_differences.tsv. Skipped if the files are
+// missing.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -16,7 +17,7 @@ namespace contort {
 namespace {
 
 const std::string kTableFolder = std::string(CONTORT_SOURCE_DIR) + "/../shared/assets";
-constexpr double kMostSeconds = 1.0;  // of CPU; the machine may be busy
+constexpr double kMostSeconds = 1.0;  // of CPU time, because the machine may be busy
 constexpr double kMost_MB = 512.0;
 
 // The validator's report: the worst severity, and the codes of its errors.
@@ -72,7 +73,7 @@ std::map<std::string, std::string> known_reasons() {
   return out;
 }
 
-// The code of a finding that says that a part of the file cannot be read as it is; or "".
+// The code of a finding about a part of the file that cannot be read; or "".
 std::string refused_part(const std::string& out) {
   for (const std::string& line : lines_of(out)) {
     if (line.starts_with("  quaternion_length  ")) return "gltf.not_unit";
@@ -83,8 +84,8 @@ std::string refused_part(const std::string& out) {
   return "";
 }
 
-// "accepted", or the code of the refusal, be it of the file or of a channel. A file without a clip, or without two keys,
-// was read, though there is nothing to check in it.
+// "accepted", or the code of the refusal, of the file or of a channel. A file without a clip, or without two keys, was
+// read, though it has nothing to check.
 std::string answer(const Ran& ran) {
   if (const std::string part = refused_part(ran.out); ran.code == 1 && !part.empty()) return part;
   if (ran.code == 0 || ran.code == 1) return "accepted";
@@ -96,7 +97,7 @@ std::string answer(const Ran& ran) {
   return first.substr(start, first.find_first_of(" :", start) - start);
 }
 
-// The rows of the table of reasons that a difference needs: each error of what is accepted; the file that is refused.
+// The rows in the table of reasons that a difference needs: each error of an accepted file; the refused file.
 std::vector<std::string> differences(const std::string& file, const Expected& expected, const std::string& ours) {
   if (ours == "accepted") return {expected.errors.begin(), expected.errors.end()};
   if (expected.severity == "error") return {};

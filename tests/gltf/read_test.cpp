@@ -292,7 +292,7 @@ TEST(ReadGltf, ReadsElementsThatLieApart) {
   EXPECT_EQ(read(b).clips[1].channels[0].values, (std::vector<double>{0, 0, 0, 1, 2, 3}));
 }
 
-// Written values come back bit by bit: nothing between the file and the asset rounds.
+// Written values are read back bit by bit: nothing between the file and the asset rounds.
 RC_GTEST_PROP(ReadGltfProperty, KeysComeBackAsTheyAre, ()) {
   const auto numbers = *rc::gen::suchThat(rc::gen::container<std::vector<int>>(rc::gen::inRange(-100000, 100000)),
                                           [](const auto& v) { return v.size() >= 3; });

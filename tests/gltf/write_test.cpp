@@ -93,7 +93,7 @@ std::vector<Rigid> world_of(const Asset& asset, const std::vector<Trs>& local) {
   return out;
 }
 
-// Node by node and frame by frame, what a viewer shows is what the kinematics say.
+// A viewer shows the same places as the kinematics, for each node and frame.
 void expect_same_places(const Character& character) {
   const Motion motion = swinging(character, 40);
   const Asset asset = written(character, motion);
@@ -180,7 +180,7 @@ TEST(WriteGlb, GivesEqualBytesForEqualInput) {
   EXPECT_EQ(*write_glb(human(), motion, {"a", "b"}), *write_glb(human(), motion, {"a", "b"}));
 }
 
-// ---- what cannot be written
+// ---- motions that cannot be written
 
 std::size_t moving_joint(const Character& character, JointKind kind) {
   const auto joints = character.joints();
@@ -276,7 +276,7 @@ TEST(SaveGlb, SaysWhyItCannotWrite) {
   EXPECT_EQ(saved.issue().code, "file.unwritable");
 }
 
-// Speeds that a reader measures in the file are those of the motion.
+// Speeds that a reader measures in the file equal those of the motion.
 RC_GTEST_PROP(WriteGlbProperty, HingeSpeedsSurvive, ()) {
   const auto steps = *rc::gen::container<std::vector<int>>(8, rc::gen::inRange(-30, 30));
   const std::size_t hinge = moving_joint(human(), JointKind::hinge);

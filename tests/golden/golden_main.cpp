@@ -16,7 +16,7 @@ namespace {
 
 Spec drawn(Generator& generator, int i) { return draw_spec({{"human", "mech", "quadruped"}}, generator, 7, i); }
 
-// Cases drawn by the fuzzer, on so many threads: the threads must not show.
+// Prints cases drawn by the fuzzer, on this number of threads, which must not change them.
 void print_drawn_on(int jobs) {
   std::vector<std::uint64_t> hashes(kDrawnCases);
   std::vector<BuiltInGenerator> generators(static_cast<std::size_t>(jobs));

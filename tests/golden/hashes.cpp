@@ -48,7 +48,7 @@ void print_math() {
   std::printf("detmath values=200005 hash=%s\n", to_hex(hash.value()).c_str());
 }
 
-// 4950 pairs of capsules by one of the kernels. No scene would tell: a machine uses the fastest that it has.
+// 4950 pairs of capsules by one of the kernels. Scenes do not test all kernels: a machine uses its fastest one.
 void print_round(const char* which, const RoundKernel& kernel) {
   std::mt19937_64 engine(5);
   const auto uniform = [&] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1.0; };
@@ -70,7 +70,7 @@ void print_round(const char* which, const RoundKernel& kernel) {
   std::printf("round_distances kernel=%s pairs=%zu hash=%s\n", which, pairs.size(), to_hex(hash.value()).c_str());
 }
 
-// The recursions of dynamics by one set of instructions, on what place() and inverse_dynamics() prepared.
+// The recursions of dynamics with one set of instructions, on the results of place() and inverse_dynamics().
 void print_recursions(const char* which, const RecursionSet& set) {
   Hash64 hash;
   for (const char* name : {"human", "mech", "quadruped"}) {

@@ -17,7 +17,7 @@ void print_fixed();
 // The hash of a spec with its motion and findings; 0 if the generator refuses it.
 std::uint64_t hash_of(const Spec& spec, Evaluator& evaluator);
 
-// Prints the line of the drawn cases, whose hashes stand in their order.
+// Prints the line of the drawn cases from their hashes in order.
 void print_drawn(int jobs, std::span<const std::uint64_t> hashes);
 
 }  // namespace contort::golden

@@ -1,5 +1,5 @@
-// Prints the golden hashes as WebAssembly under Node: wasm_main SPECS. SPECS is a file with what the native program
-// prints with --drawn-specs, because the library that draws cases is not there; the threads are not there either.
+// Prints the golden hashes as WebAssembly under Node: wasm_main SPECS. SPECS is a file with the output of the native
+// program with --drawn-specs, because WebAssembly has neither threads nor the library that draws cases.
 #include <cstdio>
 #include <fstream>
 #include <string>

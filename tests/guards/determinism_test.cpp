@@ -1,6 +1,6 @@
-// Code that gives the same spec other bits elsewhere stays out of the source: platform maths, clocks, chance, order. A
-// list of names, so it sees what is called and not what it does: a Quat made from Euler angles, or a glm function found
-// through its arguments under a name that is not listed, gets through. The golden hashes are the other half.
+// Keeps code out of the source that gives other bits on other machines: platform maths, clocks, randomness, order. It
+// is a list of names, so it finds calls and not effects: it misses a Quat made from Euler angles, or a glm function
+// found through its arguments under a name that is not listed. The golden hashes find these.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -53,7 +53,7 @@ const Names kClock = {"chrono", "time", "clock", "localtime", "gmtime", "timespe
 const Names kClockCalls = {"gettimeofday", "clock_gettime", "steady_s", "localtime_r",
                            "gmtime_r",     "usleep",        "nanosleep"};
 
-// Whose order, value or grouping the standard leaves open.
+// The standard does not define their order, value or grouping.
 const Names kOrder = {"unordered_map", "unordered_set", "unordered_multimap", "unordered_multiset",
                       "hash",          "reduce",        "transform_reduce",   "execution"};
 
@@ -79,7 +79,7 @@ Scope scope_of(std::string_view path) {
   return {.maths = !path.starts_with("model/core/detmath."), .chance = true, .clock = !clock, .order = true};
 }
 
-// One identifier of the code and what stands around it.
+// One identifier of the code and its surroundings.
 struct Use {
   std::string name;
   std::string qualifier;  // "std" in std::sin; "::" in ::sin; "" without

@@ -1,4 +1,4 @@
-// Small habits that nobody should have to look for in a review.
+// Small rules that reviewers should not have to check.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -100,8 +100,7 @@ std::string defined_type(std::string_view line) {
   return "";
 }
 
-// Two structs of one name in one namespace are undefined behaviour as soon as they meet in one program, and no compiler
-// tells.
+// Two structs of one name in one namespace are undefined behaviour in one program, and no compiler reports it.
 TEST(Hygiene, HeadersDefineEachTypeOnce) {
   std::map<std::string, std::string> home;
   for (const SourceFile& file : project_files()) {
@@ -141,7 +140,7 @@ TEST(Hygiene, ShellScriptsParse) {
       EXPECT_EQ(output_of(in_root + "shellcheck --external-sources '" + file.path + "'"), "");
     }
   }
-  EXPECT_GE(scripts, 4);  // run, test, .ci/run and what they share
+  EXPECT_GE(scripts, 4);  // run, test, .ci/run and their shared script
 }
 
 TEST(Hygiene, ScriptsOfTheRootCanBeStarted) {

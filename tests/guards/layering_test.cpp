@@ -9,7 +9,8 @@
 namespace contort::guards {
 namespace {
 
-// Files in a folder may include their own layer and those that are listed; "generator/*" is the folder with all below.
+// Files in a folder may include their own layer and the listed ones; "generator/*" is the folder with all folders
+// below.
 struct Layer {
   std::string folder;
   std::vector<std::string> may_include;
@@ -33,7 +34,7 @@ const std::vector<Layer> kLayers = {
     {"generator/actions", {"model/*", "generator/motion"}},
     {"generator/timeline", {"model/*", "generator/motion", "generator/actions"}},
     {"generator/dynamics", {"model/*", "generator/motion"}},
-    {"generator", {"model/*", "formats/*", "generator/*"}},  // stage, generate: what the other folders see
+    {"generator", {"model/*", "formats/*", "generator/*"}},  // stage, generate: the interface for other folders
     {"process", {"model/core"}},
     {"guest", {"model/*", "formats/*", "process"}},
     {"checks", {"model/*"}},
@@ -56,7 +57,7 @@ const std::vector<Layer> kLayers = {
 // The only files that may include a library. GLM is the exception: its types are ours.
 struct Door {
   std::string header;  // or the folder of headers, "glm/"
-  std::string files;   // as for fnmatch(3); * does not match a slash
+  std::string files;   // patterns as for fnmatch(3); * does not match a slash
 };
 
 const std::vector<Door> kDoors = {
@@ -159,8 +160,9 @@ TEST(Layering, TheProjectKeepsItsArrows) {
   int headers_seen = 0;
   for (const SourceFile& file : project_files()) {
     if (!is_cpp(file.path) && !file.path.ends_with(".inc")) continue;
-    if (below(file.path, "adapters")) continue;  // users copy them: they include nothing of ours
-    if (below(file.path, "docs/examples")) continue;  // projects of users: they see what is installed, and are built so
+    if (below(file.path, "adapters")) continue;  // users copy them, so they include no file of ours
+    // Users' projects, which include installed headers and are built with them.
+    if (below(file.path, "docs/examples")) continue;
     if (file.path.ends_with(".h")) ++headers_seen;
     std::ranges::copy(layering_violations(file.path, file.text), std::back_inserter(violations));
   }

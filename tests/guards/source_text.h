@@ -14,7 +14,7 @@
 namespace contort::guards {
 
 struct SourceFile {
-  std::string path;  // from the project's root, "model/core/math.h"
+  std::string path;  // path from the project's root, "model/core/math.h"
   std::string text;
 };
 
@@ -32,7 +32,7 @@ inline std::string to_text(const std::vector<Violation>& violations) {
 
 inline bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-// All files of the project as it would be checked out: what .gitignore names and hidden folders are left out.
+// All files of the project as in a checkout, without ignored files and hidden folders.
 inline std::vector<SourceFile> project_files() {
   namespace fs = std::filesystem;
   constexpr std::array kIgnored = {"build", "contort-out", "report", ".git"};
@@ -54,8 +54,8 @@ inline std::vector<SourceFile> project_files() {
 
 inline bool is_cpp(std::string_view path) { return path.ends_with(".cpp") || path.ends_with(".h"); }
 
-// Blanks comments and the contents of literals, so that what is left is code; lines and columns stay. The quoted path
-// of an #include stays too.
+// Blanks comments and the contents of literals, so that only code remains; lines and columns stay. The quoted path of
+// an #include stays too.
 class CodeOf {
  public:
   explicit CodeOf(std::string_view text) : text_(text), code_(text) {
@@ -96,7 +96,7 @@ class CodeOf {
   void blank_literal(char quote) {
     std::size_t end = at_ + 1;
     while (end < text_.size() && text_[end] != quote && text_[end] != '\n') end += text_[end] == '\\' ? 2 : 1;
-    ++at_;  // the quotes stay: something is there
+    ++at_;  // the quotes stay as a placeholder
     blank_to(std::min(end, text_.size()));
     ++at_;
   }

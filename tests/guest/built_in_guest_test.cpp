@@ -14,7 +14,7 @@ namespace contort {
 namespace {
 
 constexpr char kBuiltIn[] = CONTORT_BINARY_DIR "/contort guest-builtin --character ";
-constexpr double kSame = 1e-9;  // an angle comes back from a quaternion
+constexpr double kSame = 1e-9;  // angles are converted to quaternions and back
 
 class BuiltInGuest : public ::testing::TestWithParam<const char*> {
  protected:
@@ -24,7 +24,7 @@ class BuiltInGuest : public ::testing::TestWithParam<const char*> {
     guest = std::move(started).value();
   }
 
-  // Specs with one clip: the protocol has one time line, and knows of no clips or sequences.
+  // Specs with one clip, because the protocol has one time line without clips or sequences.
   std::vector<Spec> drawn(std::size_t count) {
     std::vector<Spec> specs;
     for (int i = 0; i < 4000 && specs.size() < count; ++i) {
@@ -38,7 +38,7 @@ class BuiltInGuest : public ::testing::TestWithParam<const char*> {
   BuiltInGenerator here{stock_library()};
 };
 
-// The coordinates of a ball are a quaternion, whose sign means nothing.
+// The coordinates of a ball are a quaternion, whose sign does not matter.
 double difference(const Joint& joint, const double* a, const double* b) {
   if (joint.kind != JointKind::ball) return std::fabs(a[0] - b[0]);
   return rotation_angle(glm::conjugate(quat_at(a)) * quat_at(b));

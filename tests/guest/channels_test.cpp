@@ -1,4 +1,4 @@
-// Values that a program under test gives beside the pose.
+// Values that a program under test gives in addition to the pose.
 #include <gtest/gtest.h>
 
 #include "checks/judge.h"

@@ -1,4 +1,4 @@
-// Replies that are wrong in every way that we know: the case has an ending or a motion, and the next case is played.
+// Replies with all kinds of faults: the case has an ending or a motion, and the next case is played.
 #include <dirent.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

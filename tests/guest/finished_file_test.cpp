@@ -32,12 +32,12 @@ AssetChannel turning(int node, const Vec3& axis, const Keys& times_s, const Keys
 
 Keys evenly(std::size_t count, double step_s) {
   Keys times;
-  for (std::size_t i = 0; i < count; ++i)  // as files keep them
+  for (std::size_t i = 0; i < count; ++i)  // as in files
     times.push_back(static_cast<double>(static_cast<float>(static_cast<double>(i) * step_s)));
   return times;
 }
 
-// A model with a node for the base, the slide and the lift of the small character's left arm, and one that is nobody's.
+// A model with a node for the base, the slide and the lift of the small character's left arm, and one without a joint.
 struct Model {
   Asset asset;
   std::shared_ptr<const Character> character = std::make_shared<const Character>(small::build());
@@ -182,7 +182,7 @@ TEST(FinishedFile, AModelThatFacesElsewhereIsTurned) {
   EXPECT_LT(glm::length(way - Vec3(0, 0, 0.6)), 1e-5);
 }
 
-// Both ankles are pulled back again and again while the hips stay.
+// Both ankles are pulled back repeatedly while the hips stay.
 TEST(FinishedFile, AWalkOnTheSpotIsKnown) {
   const auto human = std::make_shared<const Character>(fixtures::human());
   const auto swinging = [&](double share) {

@@ -60,8 +60,8 @@ Quat drawn_rotation() {
   return glm::normalize(Quat(1.001 + part(), part(), part(), part()));
 }
 
-// The places of joints do not depend on the axes in which they are told: reading in another convention and placing the
-// joints is placing them in that convention and then converting the points.
+// The places of joints do not depend on the convention: converting frames and placing joints equals placing joints in
+// the convention and converting the points.
 RC_GTEST_PROP(GuestFrames, PlaceJointsAlikeInEveryConvention, ()) {
   GuestConvention convention;
   convention.up = static_cast<Axis>(*rc::gen::inRange(0, 6));

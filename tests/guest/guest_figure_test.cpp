@@ -58,7 +58,7 @@ TEST(GuestFigures, JudgeShapesThatAreApartAtRestAndNotSaidToTouch) {
   EXPECT_TRUE(built(chain(0.35)).judged_colliders().empty()) << "they overlap at rest";
 }
 
-// In a convention whose up is our forward, the box stands as it is drawn there.
+// In a convention whose up is our forward, the box has the orientation of the manifest.
 TEST(GuestFigures, TakeBoxesInTheAxesOfTheGenerator) {
   GuestManifest manifest = chain(0.1);
   manifest.convention = {Axis::plus_z, Axis::minus_y, 0.01, Hand::right};

@@ -80,7 +80,7 @@ TEST(Guests, BuildAllSpecsThatAreDrawnForThem) {
   }
 }
 
-// The ending that a broken program gives, by how it is told in a finding.
+// The ending of a broken program, as findings describe it.
 std::string ending_of(const std::string& name) {
   const auto guest = started(broken(name));
   if (guest == nullptr) return "";

@@ -1,4 +1,4 @@
-// Manifests of generators that are programs of their own: each fault is told where it stands.
+// Manifests of generators that are programs of their own: each fault is reported at its place.
 #include "guest/manifest.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ std::string refusal_of(const std::string& json) {
   return manifest ? "" : manifest.issue().code + " at " + manifest.issue().pointer;
 }
 
-// Two hinges, of which the arm follows as it says.
+// Two hinges; the arm follows as declared.
 std::string with_follower(const std::string& follows, const std::string& more_of_tail = "") {
   return manifest_with(kHips + R"(,{"name":"arm","parent":"hips","slot":"arm_l","type":"hinge","follows":)" + follows +
                            R"(},{"name":"tail","parent":"hips","slot":"tail","type":"hinge")" + more_of_tail + "}",

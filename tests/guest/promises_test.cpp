@@ -1,4 +1,4 @@
-// Promises of programs under test, played by a program that keeps or breaks each as it is told.
+// Promises of programs under test, played by a program that keeps or breaks each on request.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -47,7 +47,7 @@ const std::pair<const char*, const char*> kBroken[] = {
     {"pass", "undo_error"},         {"near", "gain_error"},         {"lean", "mirror_error"},
 };
 
-// The actions that are continuous jump as they come; that is no matter here.
+// Continuous actions may jump here; these tests do not judge that.
 TEST(GuestPromises, AreFoundWhereTheyAreBrokenAndNowhereElse) {
   const auto guest = promising();
   ASSERT_NE(guest, nullptr);

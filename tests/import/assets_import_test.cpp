@@ -1,4 +1,4 @@
-// Real characters, which nobody in the project made: shared/assets beside the repository. Skipped where they are not.
+// Real characters from other people: shared/assets beside the repository. Skipped if they are missing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ struct ImportedModel {
   Imported in;
 };
 
-// Imports all models that can be imported; the others must say why not.
+// Imports all models that can be imported; all others must give a reason.
 std::map<std::string, ImportedModel> import_all() {
   std::map<std::string, ImportedModel> out;
   for (const std::string& path : models()) {
@@ -93,7 +93,7 @@ TEST(AssetImport, IsWhatItLooksLike) {
     EXPECT_FALSE(figure(other).is_humanoid) << other;
 }
 
-// The model's own clips, played on the character that came of it: joints whose ranges come from clips must hold them.
+// The model's own clips on the imported character: joints whose ranges come from clips must allow them.
 TEST(AssetImportSlow, OwnClipsStayInTheRangesThatCameFromThem) {
   SKIP_WITHOUT_MODELS();
   for (const auto& [file, model] : all_imported()) {

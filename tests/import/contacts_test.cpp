@@ -68,7 +68,7 @@ TEST(Contacts, StockCharactersNeedNoMore) {
   }
 }
 
-// The postures that are tried are what the check for ranges takes for postures in range.
+// The sampled postures are in range by the check of ranges, too.
 TEST(Contacts, OverlapsAreCountedOnlyWhereJointsCanGo) {
   Library library = with_box_at(-0.19);
   for (JointDesc& joint : library.parts["small_arm"].joints)

@@ -1,4 +1,4 @@
-// Models made for the purpose, and what must come of them.
+// Models made for tests, and the characters that result from them.
 #include "import/import.h"
 
 #include <gtest/gtest.h>
@@ -103,7 +103,7 @@ TEST(Import, AnythingElseWeighsWhatItsCollidersHold) {
   const Imported in = must(imported(rigged(fixtures::worm(3))));
   const auto& shape = std::get<Capsule>(part_in(in, "body")->colliders.front().shape);
   EXPECT_NEAR(shape.radius_m, 0.1, 0.01);
-  const double half = 0.15;  // of the straight part of a box of 0.5 m
+  const double half = 0.15;  // half of the straight part of a box of 0.5 m
   EXPECT_NEAR(in.mass_kg, 3 * 1000.0 * kPi * 0.01 * (2 * half + 4.0 / 3.0 * 0.1), 0.1 * in.mass_kg);
 }
 
@@ -217,7 +217,7 @@ TEST(Import, VrmBonesGoBeforeNames) {
   EXPECT_EQ(code_of(imported(b)), "gltf.bad_index");
 }
 
-// Rigs move feet by handles that hang on nothing; here they belong to a leg.
+// Rigs move feet by handles without a parent; here these feet are attached to a leg.
 TEST(Import, LooseFeetGoToTheNearestLegOfTheirSide) {
   std::vector<fixtures::RiggedBone> bones = person();
   for (fixtures::RiggedBone& bone : bones)
@@ -237,7 +237,7 @@ TEST(Import, JointsThatMoveNoSkinAreLeftOut) {
   b.root["nodes"][0]["children"].push_back(pole);
   b.root["skins"][0]["joints"].push_back(pole);
   b.root["skins"][0].erase(
-      "inverseBindMatrices");  // then vertices stay where their joints are: it does not matter here
+      "inverseBindMatrices");  // vertices then stay where their joints are, which does not matter here
   EXPECT_FALSE(must(imported(b)).cut.joint_of_node.contains("kneePole.l"));
 }
 

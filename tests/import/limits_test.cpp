@@ -13,7 +13,7 @@ namespace {
 using fixtures::imported;
 using fixtures::part_in;
 
-// A worm's second joint in those poses, once a second.
+// A worm's second joint in these poses, one per second.
 Imported worm_that_turns(const std::vector<Quat>& poses) {
   fixtures::GlbBuilder b = fixtures::rigged(fixtures::worm(3));
   std::vector<float> times, values;

@@ -1,4 +1,4 @@
-// Models that lie, and animals and rigs whose names or bones are unusual.
+// Models that lie, and animals and rigs with unusual names or bones.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ TEST(Posture, LyingPersonIsStoodUpAndThisIsSaid) {
   }
 }
 
-// Four legs on the ground, all of which are called legs.
+// Four legs on the ground, all of them called legs.
 std::vector<RiggedBone> fox() {
   std::vector<RiggedBone> bones = {{"Hips", -1, {0, 0.5, -0.4}, {-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}},
                                    {"Spine_1", 0, {0, 0.5, 0.0}, {-0.1, -0.1, -0.3}, {0.1, 0.1, 0.4}},

@@ -14,13 +14,13 @@ namespace contort::fixtures {
 struct RiggedBone {
   std::string name;
   int parent = -1;
-  Vec3 place{0.0};  // in the world, metres
+  Vec3 place{0.0};  // position in the world, metres
   Vec3 low{-0.05};  // its box, from there
   Vec3 high{0.05};
 };
 
 struct RigOptions {
-  double units_per_metre = 1.0;  // of joints and vertices
+  double units_per_metre = 1.0;  // for joints and vertices
   Quat turned = kNoRotation;     // the whole model, by its armature
 };
 

@@ -31,7 +31,7 @@ bool says(const std::vector<std::string>& notes, const std::string& what) {
   return std::ranges::any_of(notes, [&](const std::string& text) { return text.find(what) != std::string::npos; });
 }
 
-// A file in Latin-1, a character that is cut off, and a number that is no character. Found by libFuzzer.
+// A file in Latin-1, a character that is cut off, and an invalid character number. Found by libFuzzer.
 TEST(RobotImport, NamesThatAreNotUtf8AreImportedWithReplacements) {
   for (const std::string name : {"\xe1rm", "arm\xc3", "\xed\xa0\x80", "&#xD800;", "\xf8\x88\x80\x80\x80", "\xc3\xa4rm"}) {
     std::string text = two_links("revolute", R"(<limit lower="-1" upper="2" velocity="3" effort="4"/>)");
@@ -97,7 +97,7 @@ TEST(RobotImport, FollowingJointIsSaid) {
   EXPECT_NE(robot.files.back().text.find("follows other"), std::string::npos) << "the report says it";
 }
 
-// Three links in a row, whose shapes do not touch at rest.
+// Three links in a row whose shapes do not touch at rest.
 std::string three_in_a_row() {
   std::string text = "<robot name=\"r\">";
   for (const char* link : {"a", "b", "c"})

@@ -78,7 +78,7 @@ TEST(SkinnedGltf, LiesAreRefusedByName) {
   EXPECT_EQ(code_of(compressed), "gltf.unsupported");
 }
 
-// A reader that asks for nodes and clips only does not look at meshes.
+// A reader for nodes and clips ignores meshes.
 TEST(SkinnedGltf, BadMeshesHinderNobodyElse) {
   GlbBuilder b = rigged(worm(2));
   attributes(b)["POSITION"] = 9999;
@@ -86,7 +86,7 @@ TEST(SkinnedGltf, BadMeshesHinderNobodyElse) {
   EXPECT_TRUE(parse_glb(b.glb()).ok());
 }
 
-// Whatever changes, the answer is a figure or an issue.
+// After any change, the result is a figure or an issue.
 RC_GTEST_PROP(SkinnedGltf, ChangedBytesNeverCrashAnImport, ()) {
   fixtures::ByteList glb = rigged(worm(3)).glb();
   const auto changes = *rc::gen::container<std::vector<std::pair<std::uint16_t, std::uint8_t>>>(

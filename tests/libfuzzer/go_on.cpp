@@ -31,7 +31,7 @@ void pose_around(const Asset& asset, const AssetClip& clip) {
       require(is_finite(trs), "every pose of an accepted asset is finite");
 }
 
-// The first nodes as the first joints, whatever they are called.
+// Uses the first nodes as the first joints, whatever their names are.
 void follow(const Asset& asset, const AssetClip& clip, const Character& character) {
   std::map<std::string, std::string> joints;
   for (std::size_t i = 0; i < std::min(asset.nodes.size(), character.joints().size()); ++i)

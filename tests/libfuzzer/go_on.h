@@ -1,4 +1,4 @@
-// The work that follows once an input was read, bounded: what `check`, `replay` and `generate` would do with it.
+// Bounded work on an input that was read: what `check`, `replay` and `generate` would do with it.
 #pragma once
 
 #include "model/asset/asset.h"

@@ -43,7 +43,7 @@ TEST(HostileFiles, EveryFolderOfRegressionsBelongsToATarget) {
   }
 }
 
-// Seeds of every length, and with every byte in turn replaced: what a mutation would begin with, in every build.
+// Seeds of every length, and with every byte replaced in turn, in every build: the first steps of mutation.
 TEST(HostileFiles, SeedsThatAreCutOrChangedAreAnswered) {
   for (const Target& target : all_targets()) {
     if (target.name == "spec" || target.name == "description" || target.name == "case") continue;  // slow, and JSON too

@@ -27,7 +27,7 @@ std::string times(std::size_t count, const std::string& text) {
   return out;
 }
 
-// A tree of JSON that looks at all elders of each object needs 10^11 looks: minutes.
+// With 10^11 comparisons (each object with all earlier ones) reading would take minutes.
 TEST(LargeInput, AListOfManyObjectsIsReadInTheTimeOfItsLength) {
   const double start = cpu_seconds();
   EXPECT_EQ(parse_spec("[" + times(500'000, "{},") + "{}]").issue().code, "spec.wrong_type");
@@ -110,7 +110,7 @@ std::string amc_of(int frames) {
   return out;
 }
 
-// 3 * 10^8 rotations that nobody asked for: 15 s.
+// 3 * 10^8 needless rotations would take 15 s.
 TEST(LargeInput, BonesThatStayCostNoTimeInEachFrame) {
   const AsfSkeleton skeleton = bones_that_stay(16'000);
   const Result<AmcMotion> motion = parse_amc(amc_of(20'000), skeleton);
@@ -120,7 +120,7 @@ TEST(LargeInput, BonesThatStayCostNoTimeInEachFrame) {
   EXPECT_LT(cpu_seconds() - start, 2.0);
 }
 
-// Each buffer wants one byte of a file, all of which is read for it.
+// Each buffer needs one byte of a file that must be read completely.
 TEST(LargeInput, BuffersAreReadUpToALimitAndNotOnceForEachThatNamesAFile) {
   const TempFolder folder;
   fixtures::Json root = fixtures::small_arm().document();

@@ -1,5 +1,5 @@
-// The list of targets, and what their seeds are made from: the project's own examples and stock, and small files that
-// the tests make.
+// The list of targets, and the sources of their seeds: the project's own examples and stock, and small files that the
+// tests make.
 #include "tests/libfuzzer/targets.h"
 
 #include <algorithm>

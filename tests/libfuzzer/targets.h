@@ -1,6 +1,6 @@
-// The files that a stranger may hand to a user, one target for each format: from bytes as far as the program would go
-// with them, in bounded work. libFuzzer runs them (docs/internals/hostile_input.md), and hostile_files_test.cpp with
-// what was found.
+// The untrusted files that a user may get, one target for each format: from bytes as far as the program would process
+// them, with bounded work. libFuzzer runs them (docs/internals/hostile_input.md), and hostile_files_test.cpp runs them
+// on earlier findings.
 #pragma once
 
 #include <span>
@@ -10,7 +10,8 @@
 
 namespace contort::hostile {
 
-// Whether the input was accepted. What must not happen aborts: a sanitizer's report, an assert, a failed require().
+// Return true if the input was accepted. Forbidden behaviour aborts: a sanitizer's report, an assert, a failed
+// require().
 bool try_spec(std::string_view bytes);
 bool try_case(std::string_view bytes);
 bool try_description(std::string_view bytes);  // part, object, character, action, joint map

@@ -1,4 +1,5 @@
-// Aim tables of a library folder. What a stranger can choose without knowing the hash is nothing; so it is put right.
+// Aim tables of a library folder. An attacker who can write the file can also set its hash, so the test corrects the
+// hash.
 #include <array>
 #include <cmath>
 

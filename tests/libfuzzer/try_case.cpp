@@ -7,7 +7,7 @@ namespace contort::hostile {
 
 namespace {
 
-constexpr int kMostFrames = 12;  // of what is replayed: all of a motion, or nothing
+constexpr int kMostFrames = 12;  // longer motions are not replayed
 
 bool is_short(const Spec& spec, const Admission& admitted) {
   return admitted.most_frames <= kMostFrames && spec.dynamics.mode == Mode::kinematic;

@@ -45,7 +45,7 @@ bool play_character(const CharacterDesc& character, const Library& library) {
   return play_in_both_modes(spec, library);
 }
 
-// The action in every slot of the stock characters whose part it is for.
+// Plays the action in every matching slot of the stock characters.
 bool play_action(const ActionDesc& action, const Library& library) {
   if (const Result<Done> fit = check_actions(library); !fit) return require_clean(fit.issue()), false;
   bool moved = false;

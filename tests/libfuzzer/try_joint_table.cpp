@@ -18,7 +18,7 @@ const std::shared_ptr<const Character>& judged_dog() {
   return dog;
 }
 
-// Two joints of the dog with short names, of which one follows the other.
+// Two joints of the dog with short names; one follows the other.
 FileJoints two_joints() {
   std::vector<std::string> hinges;
   for (const Joint& joint : judged_dog()->joints())

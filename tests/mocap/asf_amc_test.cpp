@@ -1,4 +1,4 @@
-// ASF and AMC: what is read, what is refused, and what becomes of it as an asset.
+// ASF and AMC: reading, refusals, and conversion to an asset.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

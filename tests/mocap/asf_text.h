@@ -56,7 +56,7 @@ inline std::string small_asf() {
          "  end\n";
 }
 
-// Four frames. The hand's limit is 45 and its numbers are 45, 46, 44 and -2; the arm stays in range but for frame 8.
+// Four frames. The hand's limit is 45 and its numbers are 45, 46, 44 and -2; the arm stays in range except in frame 8.
 inline std::string small_amc() {
   return "#!OML\n"
          ":FULLY-SPECIFIED\n"

@@ -1,4 +1,4 @@
-// Real motion capture, which nobody in the project wrote: shared/assets beside the repository. Skipped where it is not.
+// Real motion capture from other people: shared/assets beside the repository. Skipped if it is missing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -72,7 +72,8 @@ TEST(MocapAssets, EveryBvhHasTheFactsOfTheManifest) {
     const ClipSpeeds speeds = speeds_of(*asset);
     const double peak_deg_s = number_before(facts, " deg/s");
     EXPECT_NEAR(speeds.peak_rad_s * kDegPerRad, peak_deg_s, 1.0) << path;
-    // "peak 60 deg/s @ child2 frame 4". Other intervals may be as fast, so the one that is named is looked up.
+    // The text has the form "peak 60 deg/s @ child2 frame 4". Other intervals may be equally fast, so the named one is
+    // measured.
     const std::size_t joint = facts.find(" deg/s @ ") + 9;
     const std::size_t frame = facts.find(" frame ", joint);
     EXPECT_NEAR(speed_at(*asset, facts.substr(joint, frame - joint), std::stoul(facts.substr(frame + 7))), peak_deg_s,
@@ -118,7 +119,7 @@ TEST(MocapAssets, ReferencePosesInFrame0ArePopsAndNothingElseIsFound) {
   }
 }
 
-// A solver that flips legs, again and again: nearly everything that is too fast here is over after a frame or two.
+// A solver that flips legs repeatedly: nearly every movement that is too fast here is over after a frame or two.
 TEST(MocapAssets, FlipsOfASolverArePops) {
   SKIP_WITHOUT_ASSETS();
   const Result<Asset> asset = read_bvh(kAssets + "mocap/bvh/cmu_iclone/005_06.bvh");

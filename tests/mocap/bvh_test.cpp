@@ -1,4 +1,4 @@
-// BVH: what is read, in texts made by hand and at random.
+// BVH: reading of texts made by hand and at random.
 #include "formats/mocap/bvh.h"
 
 #include <gtest/gtest.h>
@@ -80,7 +80,7 @@ TEST(Bvh, PositionsAreAddedToTheOffset) {
 
 // ---- positions on any joint
 
-// A root and two bones whose rest is 98 high and 27 and 25 long, with the given offsets and one line for each frame.
+// A root and two bones, 98 high and 27 and 25 long at rest, with the given offsets and one line for each frame.
 std::string six_channels(const std::string& root, const std::string& bone, const std::vector<std::string>& frames) {
   const std::string channels = "\nCHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n";
   std::string text = "HIERARCHY\nROOT hips\n{\nOFFSET " + root + channels + "JOINT arm\n{\nOFFSET " + bone + channels +
@@ -121,7 +121,7 @@ TEST(Bvh, PositionsNearZeroAreAdded) {
   EXPECT_TRUE(has_remark(asset, "bvh.positions", "3 joints are added to OFFSET"));
 }
 
-// LAFAN1: the first frame is the OFFSET, and the root travels far. Others: the height tells.
+// LAFAN1: the first frame equals OFFSET, and the root travels far. In other files the height decides.
 TEST(Bvh, ARootAloneIsToldByItsFirstFrameOrItsHeight) {
   const auto with_root = [](const std::string& frames) {
     const std::string hips = "ROOT hips\n{\nOFFSET 134 91 22\nCHANNELS 3 Xposition Yposition Zposition\n}\n";
@@ -147,7 +147,7 @@ TEST(Bvh, AxesWithoutAChannelStayAtTheOffset) {
   EXPECT_EQ(place(parsed(text + "Frame Time: 0.02\n0\n2\n"), 0, 1), Vec3(5, 93, 7));
 }
 
-// ---- what exporters get wrong
+// ---- faults of exporters
 
 TEST(Bvh, TheLinesCountAndNotWhatTheFileSaysOfThem) {
   const Asset plain = parsed(small_bvh());
@@ -256,7 +256,7 @@ std::string hundredths(int value) {
          std::to_string(std::abs(value) % 100 + 100).substr(1);
 }
 
-// Joints nest by depth; each is closed before the next one that is not deeper.
+// Joints are nested by depth; each is closed before the next one that is not deeper.
 std::string to_text(const std::vector<RandomJoint>& joints, int frames) {
   std::string text = "HIERARCHY\n";
   std::vector<int> open;

@@ -30,7 +30,7 @@ inline std::string small_bvh() {
          "0 90 90 -1e-1 .5 +3 90 90 0\n";
 }
 
-// The text with the first `what` replaced.
+// The text with the first occurrence of `what` replaced.
 inline std::string replaced(std::string text, const std::string& what, const std::string& by) {
   const std::size_t at = text.find(what);
   return at == std::string::npos ? "no " + what : text.replace(at, what.size(), by);

@@ -113,8 +113,8 @@ TEST(HostileBvh, FoldersDevicesAndMissingFilesAreRefused) {
   }
 }
 
-// Once a frame is complete, what there is is read, and a remark says that it is not all. At most the last number's
-// digits and the last line end can be missing without one.
+// If at least one frame is complete, the text is read, and a remark reports that it is cut. At most the last number's
+// digits and the last line end can be missing without a remark.
 TEST(HostileBvh, ATextThatEndsEarlyIsRefusedOrRemarkedWhereverItEnds) {
   const std::string whole = replaced(small_bvh(), "0.25", "0.1");
   const std::size_t one_frame = whole.find("0 90 90 -1e-1") - 1;  // bytes up to the end of the first frame
@@ -129,7 +129,7 @@ TEST(HostileBvh, ATextThatEndsEarlyIsRefusedOrRemarkedWhereverItEnds) {
   }
 }
 
-// Whatever changes, the answer is an asset or an issue. Run under ASan and UBSan in the dev preset.
+// After any change, the result is an asset or an issue. Run under ASan and UBSan in the dev preset.
 RC_GTEST_PROP(HostileBvhProperty, ChangedBytesNeverCrash, ()) {
   std::string text = small_bvh();
   const auto changes = *rc::gen::container<std::vector<std::pair<std::uint16_t, char>>>(

@@ -1,4 +1,4 @@
-// Aim tables in files: what is written comes back, and what is damaged does not.
+// Aim tables in files: intact ones are read back unchanged, and damaged ones are refused.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -124,7 +124,7 @@ TEST_P(AimIk, ReachesWhatItsJointsCanReach) {
 
 struct Followed {
   int lost = 0;   // frames in which the target was not reached
-  int stuck = 0;  // of these: another posture reaches it
+  int stuck = 0;  // number of these for which another posture reaches the target
   double fastest_rad = 0.0;
   std::vector<double> rows;
 };
@@ -169,7 +169,8 @@ std::string parameter_name(const ::testing::TestParamInfo<fixtures::AimSceneRow>
 
 INSTANTIATE_TEST_SUITE_P(Chains, AimIk, ::testing::ValuesIn(fixtures::kAimScenes), parameter_name);
 
-// Behind the head: three hinges cannot turn that far. What is left is what the nearest of 200,000 postures leaves.
+// A target behind the head: three hinges cannot turn that far. The remaining angle is that of the nearest of 200,000
+// postures.
 TEST(AimIkEnds, OutOfReachComesAsNearAsItCan) {
   const AimScene scene = aim_scene(fixtures::kAimScenes[13]);
   const AimTable table = AimTable::build(aim_geometry(scene.character, scene.chain));
@@ -215,7 +216,7 @@ TEST(AimIkEnds, ATargetWithoutDirectionIsNotReachedAndBreaksNothing) {
     }
 }
 
-// Travels stay; so does everything that is not in the chain.
+// Travels stay, and so do all joints outside of the chain.
 TEST(AimIkEnds, OnlyTheChainTurns) {
   const AimScene scene = aim_scene(fixtures::kAimScenes[11]);
   const AimTable table = AimTable::build(aim_geometry(scene.character, scene.chain));

@@ -24,7 +24,7 @@ struct AimScene {
 struct AimSceneRow {
   const char* name;
   const char* character;
-  const char* arm;  // of the right side; "" is the default
+  const char* arm;  // part of the right arm; "" is the default
   bool rifle;
   const char* slot;
   const char* socket;

@@ -67,7 +67,7 @@ TEST(AimChain, GeometryPlacesTheSocketAsTheCharacterDoes) {
   }
 }
 
-// Every stored posture is in range and points where the table says; cells hold no more than they may.
+// Every stored posture is in range and points in the table's direction; cells have no more entries than allowed.
 TEST(AimTable, KeepsItsBounds) {
   for (const auto& row : kAimScenes) {
     const AimScene scene = aim_scene(row);

@@ -1,4 +1,4 @@
-// Limbs keep clear of bodies: they stop before them, and get out of the way of what comes towards them.
+// Limbs keep clear of bodies: they stop in front of them, and give way to approaching ones.
 #include <gtest/gtest.h>
 
 #include "generator/execute.h"
@@ -26,7 +26,7 @@ TEST(Clearance, AnArmThatIsSentIntoTheTrunkStopsBeforeItAndSaysSo) {
   EXPECT_EQ(intent.unmet[0].why, Shortfall::clearance);
 }
 
-// When the action is over, the arm stays where it got to.
+// When the action is over, the arm stays where it stopped.
 TEST(Clearance, AnArmThatStoppedStaysThere) {
   const Stage stage = fixtures::stage_of({sequence({through_the_trunk()})}, 40);
   const Motion motion = generate(stage);
@@ -41,7 +41,7 @@ TEST(Clearance, ATrunkThatBendsAsidePutsNoArmIntoALeg) {
   }
 }
 
-// An author's pose is taken as it is; an arm with an action of its own gets out of its way.
+// An author's pose is not changed; an arm with an action of its own gives way.
 TEST(Clearance, AnArmGetsOutOfTheWayOfAPose) {
   const ActionUse look = use("direction", "torso", 0, 1, {});
   const ActionUse hold = use("reach", "arm_left", 0, 90, {{"target_m", Vec3(0.25, 0.95, 0.2)}});
@@ -65,7 +65,7 @@ TEST(Clearance, AFastLegLosesItsSpeedBeforeItsOwnBodySmoothly) {
       }
 }
 
-// The trunk comes towards the leg that goes up beside it.
+// The trunk comes towards the leg that rises beside it.
 TEST(Clearance, ALegToWhichABodyHasComeTooNearLosesItsSpeedSmoothly) {
   const auto dog = std::make_shared<const Character>(fixtures::built({"quadruped", {}, {}}));
   const ActionUse blow = use("hit_reaction", "trunk", 20, 30, {{"azimuth_deg", -120.0}, {"strength_deg", 39.0}});

@@ -1,4 +1,4 @@
-// Courses of legs as users ask for them: where they lead, how fast, and what is said where legs cannot go so fast.
+// Courses of legs in specs: their direction and speed, and notes about speeds that legs cannot reach.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -129,7 +129,7 @@ TEST(Course, AShortRunOnASlopeEndsWithHipsWhereLegsReach) {
     }
 }
 
-// The start of a run shows the run and how it comes in; together they must be slow enough for knees.
+// The start of a run consists of the run and its blend; together they must be slow enough for knees.
 TEST(Course, ARunThatIsPlayedFastComesInAsFastAsKneesBend) {
   for (const double speed : {1.25, 2.0})
     for (const int blend : {-1, 3, 10}) {

@@ -1,4 +1,4 @@
-// Feet that stand stay where they stand while walk, run, crouch and squat come in, follow one another or fade out.
+// Standing feet stay in place while walk, run, crouch and squat blend in, follow one another or fade out.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -18,10 +18,10 @@ struct Walked {
   double slide_m = 0.0;   // the farthest that a standing sole's corner gets from where it was put down
   double depth_m = 0.0;   // the deepest corner below the ground
   double gap_m = 0.0;     // the highest that the lowest corner of a standing sole is above the ground
-  double travel_m = 0.0;  // of the root
+  double travel_m = 0.0;  // distance of the root
   int steps = 0;          // swings of all feet
   int range_findings = 0;
-  bool is_unmet = false;  // the generator says that legs cannot go so fast
+  bool is_unmet = false;  // the generator reports that legs cannot go so fast
 };
 
 EnvironmentDesc noise_field() {
@@ -137,7 +137,7 @@ std::vector<std::string> walkers() {
   return {"human", "mech", "reverse", "quadruped"};
 }
 
-// Slide and penetration in all terrains; printed, because the numbers are what a change of the gait is judged by.
+// Prints slide and penetration in all terrains, because changes of the gait are judged by these numbers.
 TEST_F(Walks, FeetStandStillAndStayAboveTheGround) {
   double all_travels_m = 0.0;  // a walk may be slower than it was asked for, but walks that stand are no walks
   for (const std::string& character : walkers())

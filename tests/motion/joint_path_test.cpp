@@ -1,4 +1,4 @@
-// Joints go after what is wanted of them: at once where they can, else within their speeds, and without going too far.
+// Joints follow their wanted angles: at once if they can, otherwise within their speeds, and without overshooting.
 #include "generator/motion/joint_path.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Feet that an action has moved come back to where they stood, and figures stand on any slope that a spec may have.
+// Feet that an action has moved return to where they stood, and figures stand on any slope that specs allow.
 #include <gtest/gtest.h>
 
 #include "model/core/index.h"
@@ -100,7 +100,7 @@ TEST(Landing, APawDoesNotSlideWhenTheTrunkIsHitWhileItLands) {
   }
 }
 
-// The trunk bends until the fore legs can bend no further, and no paw leaves its place. It is told as unmet.
+// The trunk bends until the fore legs can bend no further, and no paw moves. It is reported as unmet.
 TEST(Landing, ATrunkGoesOnlyAsFarAsTheLegsThatItCarriesReach) {
   StageEvaluator evaluator;
   for (const auto& [joint, angle_deg] : {std::pair("lumbar_flex_deg", -29.0), std::pair("lumbar_flex_deg", 30.0),

@@ -1,5 +1,5 @@
-// Walks and runs beside those of people (docs/experiments/gait): curves of thigh, knee and ankle over a cycle, measured
-// from outside by forward kinematics.
+// Compares walks and runs with those of people (docs/experiments/gait): curves of thigh, knee and ankle over a cycle,
+// measured from outside by forward kinematics.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -26,7 +26,7 @@ using Angles = std::array<double, kAngles>;  // degrees
 struct Recorded {
   std::string name, action;
   double speed_m_s = 0.0, steps_per_min = 0.0;
-  double strike_phase = 0.0;  // of the recording's strike, as a share of the cycle
+  double strike_phase = 0.0;  // phase of the recording's strike, as a fraction of the cycle
   Angles peak_deg_s{};
   std::array<Angles, kPhases> curves_deg{};
 };
@@ -52,8 +52,8 @@ std::vector<Recorded> people() {
 }
 
 struct Strides {
-  std::vector<Angles> angles_deg;  // of the left leg, for each frame
-  std::vector<int> strikes;        // frames in which its foot comes down
+  std::vector<Angles> angles_deg;  // angles of the left leg, for each frame
+  std::vector<int> strikes;        // frames in which the left foot comes down
 };
 
 Angles angles_deg(const Character& character, const Leg& leg, std::span<const Rigid> world,
@@ -144,7 +144,7 @@ Angles peak_deg_s(const Strides& strides, const Cycle& cycle) {
   return peak;
 }
 
-// Printed, because the numbers are what a change of the gait is judged by.
+// Printed, because changes of the gait are judged by these numbers.
 TEST(Gaits, BendLegsLikePeople) {
   const std::vector<Recorded> all = people();
   ASSERT_EQ(all.size(), 4U);
@@ -164,7 +164,7 @@ TEST(Gaits, BendLegsLikePeople) {
   }
 }
 
-// A leg that comes to its end stops the hips above it: at once, that took 55 m/s^2.
+// A fully stretched leg stops the hips above it. Stopping at once took 55 m/s^2.
 TEST(Gaits, CarryHipsWithoutAJolt) {
   constexpr double kMost_m_s2 = 1.5 * 9.81;
   for (const double speed_m_s : {0.6, 0.98, 1.2, 1.6, 2.0}) {

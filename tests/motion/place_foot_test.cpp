@@ -8,8 +8,8 @@
 namespace contort {
 namespace {
 
-// The left leg of a character that stands here, its sole put so far ahead of the hip that the leg lies level, but for
-// `drop_m`, toes along it.
+// The left leg of a character that stands here. Its sole is so far ahead of the hip that the leg is level, except for
+// `drop_m`; the toes point along it.
 std::vector<double> placed_level(const Character& character, const Rigid& world_from_start, double drop_m) {
   const Leg leg = find_legs(character).front();
   std::vector<double> row(character.rest_coords().begin(), character.rest_coords().end());

@@ -71,7 +71,7 @@ TEST(Recording, WhatComesBeforeItsBeginningIsLeftOut) {
               1e-5);
 }
 
-// BVH: the root rests at the origin, lengths are inches, and nothing says where the ground is.
+// BVH: the root rests at the origin, lengths are inches, and the ground is unknown.
 TEST(Recording, AModelThatRestsAtTheOriginStandsOnItsLowestNode) {
   Asset asset;
   const auto add = [&](const char* name, int parent, const Vec3& position) {

@@ -1,4 +1,4 @@
-// Feet that stand: legs whose hips a trunk moves, and legs that have actions of their own.
+// Standing feet: legs whose hips a trunk moves, and legs that have actions of their own.
 #include "generator/motion/standing_feet.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ struct Standing {
   }
 
   Rigid sole(std::size_t leg) const { return world_from_socket(character, world, legs[leg].sole); }
-  // Turns the first joint of a part, with everything that hangs on it.
+  // Turns the first joint of a part, with all bodies that it carries.
   void turn(int part, double angle_rad) {
     const Joint& joint = character.joint(character.parts()[at(part)].first_joint);
     row[at(joint.coord)] += angle_rad;

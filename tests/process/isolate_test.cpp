@@ -1,4 +1,4 @@
-// Work that ends badly ends in its own process, and nothing of it is left behind.
+// Work that ends abnormally ends only its own process, and leaves nothing behind.
 #include "corpus/ending_case.h"
 #include "process/isolate.h"
 

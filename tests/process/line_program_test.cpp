@@ -1,4 +1,4 @@
-// Programs that answer line by line: what they say, and how they end.
+// Programs that answer line by line: their answers and endings.
 #include "process/line_program.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Workers that end in every way: the pool says how, and goes on.
+// Workers that end in all ways: the pool reports the ending and continues.
 #include "process/worker_pool.h"
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ WorkerEvent outcome_of(const std::string& task, const WorkerLimits& limits = kPa
   WorkerPool pool(1, limits, obey);
   pool.give(0, task);
   const WorkerEvent event = next_event(pool);
-  pool.give(0, "more");  // whatever happened, there is a worker again
+  pool.give(0, "more");  // after any ending there is a worker again
   EXPECT_EQ(next_event(pool).text, "did more");
   return event;
 }
@@ -61,7 +61,7 @@ TEST(WorkerPool, GivesRepliesOfAnyLength) {
   EXPECT_EQ(outcome_of("long").text.size(), 3'000'000U);
 }
 
-#ifdef CONTORT_ASAN  // which takes this signal for itself, prints where it came from and exits
+#ifdef CONTORT_ASAN  // ASan handles this signal itself, prints its origin and exits
 constexpr const char* kSegfault = "exit 1";
 #else
 constexpr const char* kSegfault = "SIGSEGV";

@@ -21,7 +21,7 @@ Json data_of(std::vector<ShownCase> shown) {
   return Json::parse(*text);
 }
 
-// A case that expects what its spec may not show.
+// A case with an expectation that its spec may not show.
 Case made_up(const Spec& spec, const std::string& check, const std::string& subject) {
   Case stored;
   stored.spec = spec, stored.expect.check = check, stored.expect.subject = subject, stored.expect.unit = "rad";

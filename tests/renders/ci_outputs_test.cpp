@@ -1,4 +1,4 @@
-// The files for build servers, read back: JUnit with an XML parser, SARIF against what GitHub asks for.
+// The files for build servers, read back: JUnit with an XML parser, SARIF by GitHub's requirements.
 #include "renders/ci_outputs.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Ends attributes, cells, fences, commands and lines of every output, and holds what XML cannot.
+// Text with the ends of attributes, cells, fences, commands and lines of all outputs, and with bytes that XML cannot
+// contain.
 constexpr char kHostile[] = "\"'><b>]]>&amp;|`` :: ,%0A\n::error::x\r\x01\x1b[31m\xff\xef\xbf\xbf <!-- $(x) [a](b) \\";
 
 ReportRow row_of(const std::string& state, bool gating, int number = 0) {

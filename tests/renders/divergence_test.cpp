@@ -77,7 +77,7 @@ TEST(Divergence, IsThereOnlyBeyondTheTolerance) {
   EXPECT_EQ(between(a, b, 0.0039).first.frame, 1);
 }
 
-// The joint stays where it is; what hangs on it does not.
+// The joint stays in place, but the bodies that it carries move.
 TEST(Divergence, SeesWhatOnlyTurns) {
   const Motion a = resting(diverging_human(), 2);
   for (const Joint& joint : diverging_human().joints()) {

@@ -16,7 +16,7 @@ bool rises(const Frames& frames) {
   return std::adjacent_find(frames.begin(), frames.end(), std::greater_equal<>()) == frames.end();
 }
 
-// Everything that the header promises for arguments in order and in range.
+// Checks all promises of the header for arguments in order and in range.
 ::testing::AssertionResult keeps_promises(int first, int worst, int last, int count, int tiles) {
   const Frames frames = choose_frames(first, worst, last, count, tiles);
   const bool size = static_cast<int>(frames.size()) == std::min(tiles, count);

@@ -1,4 +1,4 @@
-// The words in which reports say what a failure needs.
+// The words of reports for the needs of a failure.
 #include "renders/needs.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ TEST(Needs, ActionsAreNamedOnceClipsAndSequencesCounted) {
   EXPECT_EQ(needs_of(spec), "crouch + pose, 3 clips, 2 sequences");
 }
 
-// A person who looks for the cause must see everything that shrinking has left in the spec.
+// The text must list everything that shrinking has left in the spec.
 TEST(Needs, WhatASpecDoesNotHaveByItselfIsSaid) {
   const Spec base = [] {
     Spec spec;

@@ -1,4 +1,4 @@
-// Files that a page loads: what is written is read back, and nothing in it can end a script.
+// Files that a page loads: they are read back unchanged, and no content can end a script.
 #include "renders/page_call.h"
 
 #include <gtest/gtest.h>

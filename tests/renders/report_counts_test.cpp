@@ -1,4 +1,4 @@
-// What a report counts as a failure, and what it counts apart.
+// The failures that a report counts, and those that it counts separately.
 #include <gtest/gtest.h>
 
 #include "renders/report.h"

@@ -167,11 +167,11 @@ TEST(Report, HasOneCardForAFamilyAndGatingOnesFirst) {
   EXPECT_EQ(count(html, "<section class='bucket'"), 4u);
   EXPECT_EQ(count(html, "1 more failure</summary>"), 2u);
   EXPECT_EQ(count(html, "1\u202F280 cases, 2 failures"), 1u);
-  EXPECT_EQ(count(html, "2\u202F000 cases, 2 failures"), 1u);  // of the family: not the sum
+  EXPECT_EQ(count(html, "2\u202F000 cases, 2 failures"), 1u);  // cases of the family, not the sum
   EXPECT_LT(html.find("both</span>"), html.find("known</span>"));
 }
 
-// Names as long as those of real parts; pictures come on top.
+// Names as long as those of real parts, without pictures.
 ReportModel large_model(int count, int family_size = 1) {
   std::vector<ReportRow> rows;
   for (int i = 0; i < count; ++i) {
@@ -182,7 +182,7 @@ ReportModel large_model(int count, int family_size = 1) {
     row.replay_command = "contort replay contort-out/corpus/buckets/" + row.key + "/min-0123456789abcdef.json";
     row.needs = "pose + reach + walk, 2 clips, a swapped part", row.phase = "interrupt";
     row.clip = "strips/" + row.key + "-01234567.webp";
-    row.spec_json = std::string(11'000, 'x');  // of a failure that was not shrunk
+    row.spec_json = std::string(11'000, 'x');  // the size of a failure that was not shrunk
     rows.push_back(std::move(row));
   }
   return page(std::move(rows));
@@ -193,7 +193,8 @@ nlohmann::json rows_of(const std::string& script) {
   return nlohmann::json::parse(script.substr(12, script.size() - 15));
 }
 
-// Whether page.js finds a place for each bucket: in a card that begins with it, or in one that has a list for more.
+// Returns true if page.js finds a place for each bucket: in a card that begins with it, or in one that has a list for
+// more.
 bool have_places(const PageFiles& pages) {
   std::set<int> lists;
   for (int part = 1; pages.contains("rows/part-" + std::to_string(part) + ".js"); ++part)
@@ -207,7 +208,7 @@ bool have_places(const PageFiles& pages) {
   return true;
 }
 
-// All keys, from the page and then from what is loaded after it.
+// All keys of the page, then of the files that it loads.
 std::vector<std::string> keys_of(const PageFiles& pages) {
   std::vector<std::string> keys;
   const std::string& html = pages.at("index.html");
@@ -233,7 +234,7 @@ TEST(Report, APageIsBelowAMegabyteAndHasEachBucketOnce) {
     }
 }
 
-// Without scripts: what is in index.html, and the list of the others that it names.
+// Without scripts, index.html and the list of the others that it links have all buckets.
 TEST(Report, WhoHasNoScriptsFindsEachBucketToo) {
   const PageFiles pages = report_pages(large_model(3000));
   const std::string& html = pages.at("index.html");

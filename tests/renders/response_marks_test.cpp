@@ -22,7 +22,7 @@ Character stock(const char* name) {
   return build_character(choice, stock_library()).value();
 }
 
-// A figure that stays at rest in two frames, with a response in which nothing happens.
+// A figure at rest in two frames, with an empty response.
 struct Still {
   Character character;
   std::vector<Leg> legs = find_legs(character);
@@ -48,7 +48,7 @@ struct Still {
     place_joints();
   }
 
-  // Everything bent a little, so that no axis is along another.
+  // Bends all joints a little, so that no two axes are parallel.
   void bend() {
     for (const Joint& joint : character.joints())
       for (int k = 0; k < coord_size(joint.kind) && coord_size(joint.kind) == 1; ++k)

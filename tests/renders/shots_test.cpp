@@ -76,7 +76,7 @@ TEST(Shots, ShowWhatControlDid) {
   const Shots shots = take_shots(played.story(), kFrames);
   const auto& links = played.stage.dynamics->figure.body.links();
   for (std::size_t i = 0; i < std::size(kFrames); ++i) {
-    int shown = 0;  // none of these turns about its own length
+    int shown = 0;  // number of visible angles; no limb here turns about its own length
     for (const Link& link : links) {
       double square = 0.0;
       for (int k = 0; k < (link.dof == 0 ? 3 : link.dof_count); ++k) {

@@ -1,4 +1,4 @@
-// Skins of imported figures: where their triangles are, and what stands in the way of wearing one.
+// Skins of imported figures: the places of their triangles, and faults of skins.
 #include "renders/skin.h"
 
 #include <gtest/gtest.h>
@@ -105,7 +105,7 @@ TEST_F(SkinTest, MovesWithItsJoints) {
   }
 }
 
-// Ankles are two hinges: the foot goes with the second one.
+// Ankles are two hinges: the foot moves with the second one.
 TEST_F(SkinTest, HangsOnTheLastOfSeveralJointsInOnePlace) {
   EXPECT_EQ(desc_.joints.at("LeftFoot"), "foot_left/ankle_inv");
   EXPECT_EQ(desc_.joints.at("Hips"), "root");

@@ -1,4 +1,4 @@
-// The part of the page that says what was tested, and what never was.
+// The part of the page about tested and never tested items.
 #include "renders/tested_html.h"
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ TEST(Tested, OfManyPairsSomeAreListed) {
   EXPECT_TRUE(contains(tested_html(model), "<li>and 700 more</li>"));
 }
 
-// Both lists name the reason in plain words, and the most frequent line comes first.
+// Both lists give the reason in plain words, the most frequent line first.
 TEST(Tested, ListsUnmetRequestsAndChecksThatCouldNotJudge) {
   ReportModel model;
   EXPECT_FALSE(contains(tested_html(model), "id='unmet'"));

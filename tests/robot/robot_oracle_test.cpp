@@ -140,7 +140,7 @@ std::string drawn_joint(Draw& draw, const std::string& name, bool is_last) {
   text += " axis=\"" + draw.vector(0.1, 1) + "\"";
   if (type == 1) text += " type=\"slide\"";
   if (type == 2) return text + " class=\"knee\"/>";
-  const double low = draw.between(-1, 0.5);  // MuJoCo 2.2 asks for limited beside a range
+  const double low = draw.between(-1, 0.5);  // MuJoCo 2.2 requires `limited` with a range
   return text + " limited=\"true\" range=\"" + number(low) + " " + number(low + 0.5) + "\"/>";
 }
 
@@ -234,7 +234,7 @@ RC_GTEST_PROP(RobotOracle, MujocoPutsEachJointInTheSamePlace, ()) {
   const Character character = *fixtures::character_of(*robot);
   Draw draw;
   const std::vector<double> coords = drawn_pose(draw, *robot, character, theirs);
-  mju_copy4(theirs.data->qpos + 3, theirs.model->body_quat + 4);  // of the free root, which stands as in the file
+  mju_copy4(theirs.data->qpos + 3, theirs.model->body_quat + 4);  // of the free root, which has the file's pose
   mju_zero3(theirs.data->qpos);
   mj_kinematics(theirs.model, theirs.data);
   std::vector<Rigid> world(character.joints().size());

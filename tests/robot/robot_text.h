@@ -19,7 +19,7 @@ inline std::string number(double value) {
   return text;
 }
 
-// Draws from one seed: a robot takes hundreds of draws, each of which would be much slower with RapidCheck.
+// Draws from one seed. A robot takes hundreds of draws, each of which would be much slower with RapidCheck.
 struct Draw {
   std::mt19937_64 engine{*rc::gen::arbitrary<std::uint32_t>()};
   int whole(int low, int high) { return low + static_cast<int>(engine() % static_cast<std::uint64_t>(high - low + 1)); }

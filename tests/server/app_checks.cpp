@@ -38,7 +38,7 @@ Json last(const std::vector<std::pair<std::string, Json>>& events, const std::st
 
 // ---- sessions
 
-// The law of sessions: what a terminal did, its spec does again.
+// The law of sessions: the spec of a session makes the same motion again.
 TEST(Sessions, TheSpecOfASessionMakesItsMotionAgain) {
   Server server;
   const std::string session = open(server, standing("mech", "dynamic"), {"dynamic", "kinematic"});
@@ -182,7 +182,7 @@ TEST(Calls, AreLimitedByTheirRate) {
   EXPECT_EQ(refused.headers[0].first, "Retry-After");
 }
 
-// A motion is made, and only then it is known what it took: the next one waits.
+// The cost of a motion is known only after it was made, so the next one waits.
 TEST(Cpu, IsLimitedForEachClient) {
   Limits limits;
   limits.cpu_s_per_minute = 0.0006, limits.cpu_minutes_at_once = 0.1;  // less than any evaluation takes
@@ -199,7 +199,7 @@ TEST(Cpu, IsLimitedForEachClient) {
   EXPECT_EQ(server.post("/api/evaluate", body).status, 200);
 }
 
-// The figure stands still at the end of its take, and goes on when it is told to once there is time again.
+// Without CPU time the figure stands still at the end of its take, and continues on request when there is time again.
 TEST(Cpu, ASessionGoesOnWhenThereIsSomeAgain) {
   Server server;
   const std::string session = open(server, standing());

@@ -1,4 +1,5 @@
-// A field of the wrong type is the caller's mistake in the body, and the answer says where; 415 is about Content-Type.
+// A field of the wrong type in a body is the caller's mistake, and the answer has its pointer; 415 is about
+// Content-Type.
 #include <gtest/gtest.h>
 
 #include "server/routes.h"

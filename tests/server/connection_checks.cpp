@@ -26,11 +26,11 @@ struct Pair {
     if (ends[1] >= 0) ::close(std::exchange(ends[1], -1));
   }
   int ours() const { return ends[0]; }
-  // Whether it was taken.
+  // Returns true if the bytes were accepted.
   bool send(const std::string& bytes) const {
     return ::send(ends[1], bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
   }
-  // Whether our end was shut down.
+  // Returns true if our end was shut down.
   bool is_over() const {
     char byte = 0;
     return ::recv(ends[1], &byte, 1, MSG_DONTWAIT | MSG_PEEK) == 0;
@@ -148,11 +148,11 @@ TEST(TurnAway, SaysWhyAndWhenToComeBack) {
   EXPECT_TRUE(answer.ends_with(R"({"code":"limit.connections","pointer":"","text":"too many"})")) << answer;
 }
 
-// One connection with little patience: each bound is met by a client that would wait for ever.
+// One connection with short time limits: each limit is reached by a client that would wait for ever.
 class Waiting : public testing::Test {
  protected:
   static constexpr std::size_t kMostChunked = 1000;
-  // Sends a byte each 5 ms until nobody takes them, 30 s at most.
+  // Sends a byte each 5 ms until they are refused, for at most 30 s.
   std::thread drip(const std::string& bytes) {
     return std::thread([this, bytes] {
       for (int i = 0; i < 6000 && !stop; ++i) {

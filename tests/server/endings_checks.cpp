@@ -27,7 +27,7 @@ std::vector<std::string> entries_of(const std::string& folder) {
   return names;
 }
 
-// As far as anybody could notice: who has ended and was not asked how is not there.
+// Returns false for a process that has ended, even if its parent has not waited for it.
 bool is_running(int pid) {
   const std::string text = slurp("/proc/" + std::to_string(pid) + "/stat");
   const std::size_t at = text.rfind(')');
@@ -139,7 +139,7 @@ TEST(Scratch, WithoutAPlaceForItIsAnErrorThatNamesThePlace) {
   EXPECT_NE(scratch.issue().text.find("/nowhere/at/all"), std::string::npos) << scratch.issue().text;
 }
 
-// A process that runs `work`, and is killed as soon as `file` says which process it has started.
+// A process that runs `work`, and is killed as soon as `file` has the number of the process that it started.
 int killed_with_a_child(const std::string& file, const std::function<void()>& work) {
   const pid_t parent = ::fork();
   if (parent == 0) {

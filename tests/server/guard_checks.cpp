@@ -1,4 +1,4 @@
-// The guard's decisions: who may call, and what of the disk they may see.
+// The guard's decisions: allowed callers, and the files that they can read.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -115,7 +115,7 @@ TEST(Guard, RefusesBodiesThatWouldGrow) {
   EXPECT_EQ(code(admit(plain, kOpen)), "");
 }
 
-// A client without the token learns that first, and nothing about the rest of the request.
+// A client without the token gets this refusal first, and learns nothing about the rest of the request.
 TEST(Guard, AsksForTheTokenBeforeAllElse) {
   Request request = get();
   request.method = "POST";
@@ -191,7 +191,7 @@ TEST_F(Folder, AFileIsReadPieceByPiece) {
   ASSERT_TRUE(file);
   EXPECT_EQ((*file)->left(), 7u);
   EXPECT_EQ((*file)->read(4), "pict");
-  spill(folder / "page/sub/a.png", "pictu");  // somebody cuts it meanwhile
+  spill(folder / "page/sub/a.png", "pictu");  // another program cuts it meanwhile
   EXPECT_EQ((*file)->read(100), "u");
   EXPECT_EQ((*file)->left(), 0u);
   EXPECT_EQ((*file)->read(100), "");

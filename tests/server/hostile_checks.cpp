@@ -218,7 +218,7 @@ TEST(HostileCalls, IdleConnectionsKeepNobodyOut) {
   const std::vector<Caller> idle = callers(server, 200, 1, "");
   expect_answer(server, 2);
   expect_answer(server, 1);
-  // Each connection's own thread takes its seat, so that they come in nearly the order of their calls; Connections.* has
+  // Each connection's own thread takes its seat, so they come in almost the order of their calls; Connections.* tests
   // the choice among them.
   const auto over = std::ranges::count_if(idle, &Caller::is_over);
   EXPECT_GT(over, 0) << "some made room";

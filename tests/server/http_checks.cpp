@@ -1,4 +1,4 @@
-// The server on its sockets, as a program: what arrives over the wire, good and bad.
+// The server on its sockets, as a program: valid and invalid requests.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -144,7 +144,7 @@ TEST(Serve, EveryDocumentedCallCanBeCalled) {
   const std::map<std::string, int> others = {{"post_libraries", 422}, {"post_corpus_bucket_quarantine", 422}};
   std::string bucket, job = "1";
   const Json document = Json::parse(client.Get("/api")->body);
-  // The finding is kept first, what changes the take comes after it, and the session ends last.
+  // The finding is stored first, then come calls that change the take, and the session ends last.
   std::vector<std::tuple<int, std::string, std::string, std::string>> calls;
   for (const auto& [path, methods] : document["paths"].items())
     for (const auto& [method, call] : methods.items()) {

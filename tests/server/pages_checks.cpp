@@ -1,4 +1,4 @@
-// What the server lets its own pages do.
+// The rights that the server gives to its own pages.
 #include <gtest/gtest.h>
 
 #include <algorithm>

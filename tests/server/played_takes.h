@@ -19,7 +19,7 @@ inline std::shared_ptr<const Played> played_bytes(std::string frames) {
   return std::make_shared<const Played>(std::move(played));
 }
 
-// The spec holds as many frames as the take's number, so that takes can be told apart.
+// The spec holds for as many frames as the take's number, so that takes differ.
 inline PlayedTake take_of(int number, const std::string& letters) {
   PlayedTake take;
   take.number = number, take.spec.hold_frames = number;

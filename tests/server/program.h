@@ -117,7 +117,7 @@ inline httplib::Result post(httplib::Client& client, const std::string& path, co
   return client.Post(path, headers, body, "application/json");
 }
 
-// A plain socket from 127.0.0.`from`, as which the server tells clients apart.
+// A plain socket from 127.0.0.`from`, which the server treats as one client.
 class Caller {
  public:
   explicit Caller(int port, unsigned from = 1) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
@@ -131,11 +131,11 @@ class Caller {
     if (socket_ >= 0) ::close(socket_);
   }
 
-  // Whether the other end still takes them.
+  // Returns true if the other end still accepts bytes.
   bool send(const std::string& bytes) const {
     return ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
   }
-  // All that comes until the other end is done, a part of `enough` among it, or nothing came for `seconds`.
+  // Everything received until the other end closes, `enough` was received, or nothing came for `seconds`.
   std::string receive(int seconds, const std::string& enough = "") const {
     const timeval most{seconds, 0};
     ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &most, sizeof most);
@@ -147,7 +147,7 @@ class Caller {
     }
     return answer;
   }
-  // Whether the other end has hung up by now.
+  // Returns true if the other end has closed the connection by now.
   bool is_over() const {
     char byte = 0;
     return ::recv(socket_, &byte, 1, MSG_DONTWAIT | MSG_PEEK) == 0;
@@ -168,7 +168,7 @@ inline std::string head_of(int port, const std::string& line) {
   return line + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) + "\r\n";
 }
 
-// Sends bytes as they are; what comes back within a second.
+// Sends bytes unchanged, and returns what comes back within a second.
 inline std::string raw(int port, const std::string& bytes, bool hang_up = false) {
   const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in to{};

@@ -1,4 +1,4 @@
-// The state that a session shows, without workers: a clock that is told the time, and motions that are made of letters.
+// The state that a session shows, without workers: the test sets the clock, and motions consist of letters.
 #include "server/session_state.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Commands of a terminal as edits of specs, and what they may not change.
+// Commands of a client as edits of specs, and the parts that they may not change.
 #include "server/take.h"
 
 #include <gtest/gtest.h>

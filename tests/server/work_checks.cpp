@@ -1,4 +1,4 @@
-// Tasks, workers, and what becomes of those that end badly.
+// Tasks, workers, and endings of tasks.
 #include <gtest/gtest.h>
 
 #include <csignal>

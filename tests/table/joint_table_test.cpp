@@ -1,4 +1,4 @@
-// Tables of joint values: what is read of them, and what is wrong with those that are refused.
+// Tables of joint values: reading, and the faults of refused ones.
 #include "formats/table/joint_table.h"
 
 #include <gtest/gtest.h>
@@ -118,7 +118,7 @@ TEST(JointTable, ThatIsBrokenIsRefusedWithItsLine) {
   }
 }
 
-// A column that is no joint may hold anything, so that its first fault is kept for whoever wants it as one.
+// A column without a joint may have any content, so its first fault is only stored, for readers that use it as a joint.
 TEST(JointTable, KeepsTheFirstFaultOfAColumn) {
   for (const auto& [cell, code] : std::vector<std::pair<std::string, std::string>>{{"x", "table.bad_number"},
                                                                                  {"", "table.bad_number"},

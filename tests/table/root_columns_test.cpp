@@ -1,4 +1,4 @@
-// Names of columns that say where the root is.
+// Names of columns with the root's pose.
 #include "formats/table/root_columns.h"
 
 #include <gtest/gtest.h>

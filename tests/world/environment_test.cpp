@@ -1,4 +1,4 @@
-// Ground and obstacles: what queries answer, by exemplars and against brute force.
+// Ground and obstacles: queries by exemplars and against brute force.
 #include "model/world/environment.h"
 
 #include <gtest/gtest.h>
@@ -103,7 +103,7 @@ TEST(Environment, ATurnedAndMovedOneAnswersTheSameThere) {
   }
 }
 
-// Points all over a box: none is nearer than the one that is answered, and one is as near.
+// Points all over a box: none is nearer than the returned one, and one is equally near.
 TEST(Environment, TheNearestPointOfABoxIsNearest) {
   const Box box{Vec3(0.2, 0.5, -0.1), Vec3(0.3, 0.6, 0.2), Vec3(20.0, 35.0, -10.0)};
   EnvironmentDesc desc;
@@ -181,7 +181,7 @@ TEST(Environment, SpecsReadAndPrintIt) {
   EXPECT_EQ(lava.issue().pointer, "/environment/ground/type");
 }
 
-// A figure whose root was no number took the grid's index from it, far out of the list.
+// A figure with a NaN root once got a grid index far out of the list.
 TEST(Environment, APlaceThatIsNoNumberHasNoHeight) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Environment heights = built(with_ground(HeightGround{7, 3, 0.5, std::vector<double>(21, 1.0)}));

@@ -1,5 +1,5 @@
-// Generating again with the same scratch memory must not allocate: neither the frame loop nor what prepares it. A
-// program of its own, because it replaces operator new.
+// Generating again with the same scratch memory must not allocate, neither in the frame loop nor in its preparation. It
+// is a program of its own, because it replaces operator new.
 #include <cstdio>
 #include <cstdlib>
 #include <new>

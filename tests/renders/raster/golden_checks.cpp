@@ -1,5 +1,5 @@
-// Thumbnails of scenes against those that people looked at, with a tolerance for other drivers and releases of Mesa.
-// CONTORT_DRAW_GOLDEN=1 draws them anew: look at each before it is committed.
+// Compares thumbnails of scenes with stored ones, which people have examined, with a tolerance for other drivers and
+// releases of Mesa. CONTORT_DRAW_GOLDEN=1 draws them anew: look at each before it is committed.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -46,7 +46,7 @@ Pose pose_of(const Spec& spec) {
   return pose;
 }
 
-// Without text: fonts are not what is tested. From a fixed side, or a limb that moves could move the camera.
+// Without text, because fonts are not tested; from a fixed side, because a moved limb could move the camera.
 Image draw(const Pose& pose, const DynamicsDesc& dynamics, const std::string& path) {
   static StripRenderer renderer = StripRenderer::create().value();
   StripInput input{*pose.stage.character, pose.motion};
@@ -59,7 +59,7 @@ Image draw(const Pose& pose, const DynamicsDesc& dynamics, const std::string& pa
   return read_png(path).image;
 }
 
-// The share of pixels of which some colour differs by more than a shade that people see side by side.
+// The fraction of pixels in which some colour differs by more than a visible shade.
 double share_differing(const Image& a, const Image& b) {
   if (a.width != b.width || a.height != b.height) return 1.0;
   constexpr int kShade = 24;
@@ -93,7 +93,7 @@ TEST_F(Golden, ScenesLookAsTheyDid) {
   }
 }
 
-// The tolerance must not hide what the pictures are for: a shoulder or foreleg turned by 25 degrees.
+// The tolerance must not hide a shoulder or foreleg that is turned by 25 degrees.
 TEST_F(Golden, AMovedArmIsSeen) {
   int tried = 0;
   for (const Thumbnail& one : thumbnails()) {

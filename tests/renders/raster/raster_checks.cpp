@@ -145,7 +145,7 @@ TEST(Renderer, LetsAHiddenHighlightShineThrough) {
   const long visible = redness(draw(list_of({Scene().wall, Scene::ball(0.5, 1)})));
   EXPECT_EQ(hidden, 0);
   EXPECT_GT(highlighted, 1000);
-  EXPECT_GT(visible, 2 * highlighted);  // it must not look as if nothing were in front
+  EXPECT_GT(visible, 2 * highlighted);  // it must be visible that something is in front
 }
 
 TEST(Renderer, DrawsGhostsThinly) {
@@ -219,7 +219,7 @@ TEST(Renderer, RefusesSizesThatCannotBe) {
     ASSERT_FALSE(image.ok());
     EXPECT_EQ(image.issue().code, "render.bad_size");
   }
-  EXPECT_TRUE(renderer->draw({}, front(), 64, 64).ok());  // and goes on
+  EXPECT_TRUE(renderer->draw({}, front(), 64, 64).ok());  // and it continues to work
 }
 
 // The scene's meshes on other ground, or with obstacles.
@@ -243,7 +243,7 @@ TEST(Renderer, DrawsTheGroundsShape) {
   const Camera camera = front(14.0);
   const Image steps = Shaped(StepsGround{.heading_deg = 180.0, .start_m = 0.0}).draw({}, camera);
   EXPECT_GT(differing_pixels(draw({}, camera), steps), kWidth * kHeight / 4);
-  int edges = 0;  // up the middle, where nothing else is: risers are dark, treads are not
+  int edges = 0;  // edges up the middle of the picture: risers are dark, treads are not
   for (int y = 1; y < kHeight; ++y)
     edges += std::abs(brightness(steps, kWidth / 2 + 7, y) - brightness(steps, kWidth / 2 + 7, y - 1)) > 60 ? 1 : 0;
   EXPECT_GE(edges, 8);

@@ -21,7 +21,7 @@ const Character& human() {
   return character;
 }
 
-// A figure that stays at rest; its target bends the left elbow by this share of what it can.
+// A figure at rest whose target bends the left elbow by this fraction of its range.
 Motion resting(double share, int frames = 4) {
   Motion motion;
   motion.frame_count = frames;
@@ -89,7 +89,7 @@ class Rows : public testing::Test {
   std::filesystem::path folder_;
 };
 
-// Pixels that differ by more than what one could see.
+// The number of pixels that differ visibly.
 int differing_pixels(const Image& a, const Image& b) {
   int count = 0;
   for (std::size_t i = 0; i < a.rgb.size(); i += 3)
