@@ -40,6 +40,14 @@ void set_limits(const RobotJoint& from, GuestJoint& out) {
   out.low_deg = degrees(from.low - rest), out.high_deg = degrees(from.high - rest);
 }
 
+// A shape that becomes a collider of the guest, with MJCF's contype and conaffinity.
+struct JudgedShape {
+  std::string name;
+  std::size_t body = 0;
+  unsigned groups = 1;
+  unsigned partners = 1;
+};
+
 // Makes the joints. The frames of a guest have their origins at the joints' anchors, so bodies are placed relative to
 // these.
 class RobotJoints {
@@ -49,7 +57,9 @@ class RobotJoints {
   GuestCharacter character() {
     for (std::size_t b = 0; b < robot_.bodies.size(); ++b) add_body(b);
     for (std::size_t b = 1; b < robot_.bodies.size(); ++b) add_follower(b);
-    for (const RobotPair& pair : robot_.may_touch) add_pair(find_body(robot_, pair.a), find_body(robot_, pair.b));
+    for (const RobotPair& pair : robot_.may_touch) allow_bodies(find_body(robot_, pair.a), find_body(robot_, pair.b));
+    allow_groups();
+    out_.may_touch.assign(may_touch_.begin(), may_touch_.end());
     return std::move(out_);
   }
 
@@ -101,7 +111,8 @@ class RobotJoints {
       return;
     out.joint = out_.joints[b].name;
     out.name = robot_.bodies[b].name + "_" + std::to_string(shapes_of_[b].size() + 1);
-    shapes_of_[b].push_back(out.name);
+    shapes_of_[b].push_back(shapes_.size());
+    shapes_.push_back({out.name, b, from.groups, from.partners});
     out_.colliders.push_back(out);
   }
 
@@ -125,18 +136,32 @@ class RobotJoints {
     }
   }
 
-  void add_pair(int a, int b) {
-    if (a < 0 || b < 0) return;
-    for (const std::string& one : shapes_of_[at(a)])
-      for (const std::string& other : shapes_of_[at(b)])
-        if (out_.may_touch.size() < kMostPairs) out_.may_touch.push_back({one, other});
+  void allow(const JudgedShape& one, const JudgedShape& other) {
+    may_touch_.insert({std::min(one.name, other.name), std::max(one.name, other.name)});
   }
 
-  static constexpr std::size_t kMostPairs = 1000;
+  void allow_bodies(int a, int b) {
+    if (a < 0 || b < 0) return;
+    for (const std::size_t one : shapes_of_[at(a)])
+      for (const std::size_t other : shapes_of_[at(b)]) allow(shapes_[one], shapes_[other]);
+  }
+
+  // MJCF: shapes of different bodies collide if the groups of one meet the partners of the other.
+  void allow_groups() {
+    for (std::size_t a = 0; a < shapes_.size(); ++a)
+      for (std::size_t b = a + 1; b < shapes_.size(); ++b) {
+        const JudgedShape &one = shapes_[a], &other = shapes_[b];
+        const bool meet = (one.groups & other.partners) != 0 || (other.groups & one.partners) != 0;
+        if (!meet && one.body != other.body) allow(one, other);
+      }
+  }
+
   const RobotModel& robot_;
   GuestCharacter out_;
   std::set<std::string> taken_;
-  std::vector<std::vector<std::string>> shapes_of_;  // names of colliders, by body
+  std::vector<JudgedShape> shapes_;
+  std::vector<std::vector<std::size_t>> shapes_of_;  // by body: indices of its shapes
+  std::set<std::array<std::string, 2>> may_touch_;
 };
 
 }  // namespace

@@ -138,7 +138,7 @@ void fields(V& v, const GuestCharacter*) {
   v.field("joints", &GuestCharacter::joints, {.max_count = 1000},
           "Joints, parents first; required without a model. With a model, they select its joints by name.");
   v.field("colliders", &GuestCharacter::colliders, {.max_count = 1000}, "Shapes that must not overlap.");
-  v.field("may_touch", &GuestCharacter::may_touch, {.max_count = 1000, .text = Text::label},
+  v.field("may_touch", &GuestCharacter::may_touch, {.max_count = 100'000, .text = Text::label},
           "Pairs of colliders that may overlap.");
   v.field("parts", &GuestCharacter::parts, {.max_count = 64}, "For a slot, names of the parts that can be there.");
   v.field("mirror", &GuestCharacter::mirror, {.max_count = 1000, .text = Text::label, .key_text = Text::label},

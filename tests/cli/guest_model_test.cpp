@@ -108,6 +108,34 @@ TEST_F(ModelOfAProgram, MayBeARobotWhoseSrdfLiesBesideIt) {
   EXPECT_NE(several.find("; copy the model into a folder"), std::string::npos) << several;
 }
 
+// MJCF: two shapes collide if the contype of one and the conaffinity of the other have a bit in common.
+TEST_F(ModelOfAProgram, MayBeAnMjcfWhoseShapesCollideByGroups) {
+  spill(folder_ / "arm.xml", R"(<mujoco><worldbody><body name="a"><joint name="ja"/>
+    <geom size="0.1" contype="1" conaffinity="2"/>
+    <body name="b" pos="0 0 0.3"><joint name="jb"/><geom size="0.1" contype="1" conaffinity="2"/>
+    <body name="c" pos="0 0 0.3"><joint name="jc"/><geom size="0.1" contype="2" conaffinity="1"/></body></body></body>
+    </worldbody></mujoco>)");
+  const std::string convention = R"(, "convention": {"up": "+z", "forward": "+x"})";
+  const Ran ran = examine(program(R"("model": "arm.xml")", "[0, 0, 0]", 3, convention));
+  EXPECT_NE(ran.out.find("3 colliders, of which 1 pairs may touch\n"), std::string::npos) << ran.out << ran.err;
+}
+
+// 40 shapes on one link and 40 on another: 1,600 pairs.
+TEST_F(ModelOfAProgram, KeepsEveryPairThatMayTouch) {
+  std::string urdf = R"(<robot name="arm">)";
+  for (const char* link : {"a", "b"}) {
+    urdf += std::string("<link name=\"") + link + "\">";
+    for (int n = 0; n < 40; ++n) urdf += R"(<collision><geometry><sphere radius="0.1"/></geometry></collision>)";
+    urdf += "</link>";
+  }
+  spill(folder_ / "arm.urdf", urdf + R"(<joint name="j" type="continuous"><origin xyz="0 0 1"/><parent link="a"/>
+    <child link="b"/></joint></robot>)");
+  spill(folder_ / "arm.srdf", R"(<robot name="arm"><disable_collisions link1="a" link2="b" reason="Never"/></robot>)");
+  const std::string convention = R"(, "convention": {"up": "+z", "forward": "+x"})";
+  const Ran ran = examine(program(R"("model": "arm.urdf")", "[0, 0, 0]", 2, convention));
+  EXPECT_NE(ran.out.find("of which 1600 pairs may touch\n"), std::string::npos) << ran.out << ran.err;
+}
+
 TEST_F(ModelOfAProgram, IsLookedForWhereTheProgramIs) {
   const std::string missing = refusal(R"("model": "none.glb")");
   EXPECT_NE(missing.find("generator.no_model at /characters/0/model: there is no file \"none.glb\" in "), std::string::npos)
