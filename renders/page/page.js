@@ -8,7 +8,7 @@
 
   // ---- pictures that are missing
 
-  // In the head, so that it is listening before the first picture can fail.
+  // This script is in the head, so that it listens before the first picture can fail.
   document.addEventListener('error', (event) => {
     if (event.target.closest?.('.thumb')) { event.target.remove(); return; }
     const text = event.target.dataset && event.target.dataset.missing;
