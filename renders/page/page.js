@@ -232,7 +232,7 @@
 
   const rememberFrame = (key, frame) => {
     clearTimeout(shown.addressTimer);
-    // Not at each step of a drag: browsers limit how often an address may change.
+    // The address does not change at each step of a drag, because browsers limit such changes.
     shown.addressTimer = setTimeout(() => {
       if (shown.key === key) address.write({ case: key, frame, ...filterState() });
     }, 150);

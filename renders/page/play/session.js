@@ -27,7 +27,7 @@ export class Session {
     this.enter(state);
   }
 
-  // One that is there already: after the page was loaded again. False where it has ended.
+  // Continues an existing session after the page was loaded again. Returns false if it has ended.
   async resume(id) {
     this.id = id;
     try {
