@@ -233,7 +233,7 @@ void check_files(const std::vector<std::string>& files, const ClipJudging& with,
   for (Checked& piece : pieces) add_file(std::move(piece), out);
 }
 
-// For the last line, if there are waivers or an accept list.
+// Returns the counts for the last line, if there are waivers or an accept list.
 std::string waived_count(const CheckSettings& settings, const ClipCheckOptions& options, const Checked& checked) {
   return (settings.waivers.empty() ? "" : " waived=" + std::to_string(checked.waived)) +
          (options.accept_list.empty() ? "" : " accepted=" + std::to_string(checked.accepted));

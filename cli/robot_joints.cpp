@@ -40,7 +40,7 @@ void set_limits(const RobotJoint& from, GuestJoint& out) {
   out.low_deg = degrees(from.low - rest), out.high_deg = degrees(from.high - rest);
 }
 
-// A shape that the guest has as a collider, with MJCF's contype and conaffinity.
+// A shape that becomes a collider of the guest, with MJCF's contype and conaffinity.
 struct JudgedShape {
   std::string name;
   std::size_t body = 0;

@@ -52,7 +52,7 @@ std::string cause_id(const Cause& cause, CheckKind kind);
 // The limbs of a check's subject, without sides, sorted: "arm_left/hand ~ leg_right/thigh" gives "arm" and "leg".
 std::vector<std::string> limbs_of(std::string_view subject);
 
-// What a check found, for people: "Left hand goes through right thigh".
+// Returns a failure in words for people: "Left hand goes through right thigh".
 std::string failure_in_words(std::string_view check, std::string_view subject);
 
 // The same with its cause: "Left hand goes through right thigh during aim".

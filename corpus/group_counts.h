@@ -1,4 +1,4 @@
-// How often runs saw each family, and whether one saw it more often than another did by more than chance.
+// Counts how often runs saw each family, and tests whether one run saw it more often than chance explains.
 //
 // GroupCounts are counted in groups of cases. The cases of a group share a setting (fuzz/stages.h), so that one bad
 // setting shows a family in many of them; groups are independent of each other.

@@ -73,7 +73,7 @@ std::string CaseWork::operator()(const std::string& text, WorkerSlot& slot) {
   return std::visit(Doing{*this, slot}, parse_task(text));
 }
 
-// With a base, both builds work at the same time.
+// Evaluates a case. If there is a base, both builds work at the same time.
 EvaluateReport CaseWork::evaluate(const EvaluateTask& task, WorkerSlot& slot) {
   EvaluateReport report;
   const Spec spec = spec_of(config_, generator_, task.lineage);

@@ -40,7 +40,7 @@ class SpanRecorder {
   std::vector<std::array<int, 2>> held_;  // by part: the entries of the actions that have overwrite and ik
   std::vector<int> additives_;            // entry of each action, or -1
   std::vector<int> aims_;
-  // By part: the entry of the additive that ended last, and its own last frame.
+  // The entry, by part, of the additive that ended last, and its last frame.
   std::vector<std::array<int, 2>> latest_;
 };
 

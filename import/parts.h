@@ -34,7 +34,7 @@ struct CutFigure {
   std::vector<PartDesc> parts;
   CharacterDesc character;
   std::map<std::string, std::string> joint_of_node;  // by node label; without the root
-  // By node label: the joint that moves the node's skin; includes the root.
+  // The joint, by node label, that moves the node's skin; includes the root.
   std::map<std::string, std::string> carrier_of_node;
   std::vector<BoneReport> bones;
 };

@@ -29,7 +29,7 @@ std::vector<Mat4> rest_of(const Asset& asset) {
   return world;
 }
 
-// By node, the joint of the character that carries it: its own, or that of the nearest node above; -1 for none.
+// Returns, by node, the joint of the character that carries it: its own, or that of the nearest ancestor; -1 for none.
 std::vector<int> joints_of(const SkinDesc& desc, const Asset& asset, const Character& character) {
   std::vector<int> joints(asset.nodes.size(), -1);
   for (const int node : asset.order) {

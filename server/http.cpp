@@ -16,7 +16,7 @@ namespace contort::server {
 
 namespace {
 
-// Of the address: longer ones are refused before they are compared with patterns.
+// Greatest length of an address; longer ones are refused before they are compared with patterns.
 constexpr std::size_t kMostTarget = 2048;
 constexpr int kBacklog = 512;  // greatest number of connections that the kernel keeps until they are accepted
 constexpr int kTurnedAway = 32;            // threads that refuse connections when the server is full

@@ -39,7 +39,7 @@ void add_distances(const AssetChannel& channel, const Vec3& offset, const Positi
     }
 }
 
-// How far a root travels along one axis, relative to the length of its OFFSET, and its distances there.
+// The travel of a root along one axis, relative to the length of its OFFSET, and its distances there.
 struct AxisOfRoot {
   double travel = 0.0;
   Distances distances;

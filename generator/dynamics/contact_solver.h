@@ -25,7 +25,7 @@ struct TouchedPoint {
 
 class ContactSolver {
  public:
-  // At the placed pose; needs find_mass and find_factors. The joints of a stiff figure do not move.
+  // Begins a problem at the placed pose; needs find_mass and find_factors. The joints of a stiff figure do not move.
   void begin(const EquationOfMotion& equation, bool is_stiff);
 
   void add_touch(const TouchedPoint& touch);
@@ -54,7 +54,7 @@ class ContactSolver {
     Vec3 stop_sense{0.0};
     bool is_sole = false;
     bool is_own = false;    // a contact of two bodies of the figure
-    // For a contact: the degrees of freedom after the root's that move it.
+    // The degrees of freedom, after the root's, that move a contact.
     std::size_t first_dof = kRootDofs, end_dof = kRootDofs;
   };
   void add_row(const Row& row);

@@ -30,7 +30,7 @@ class Feet {
   bool none() const { return soles_.empty(); }
   bool stands(int sole) const { return bearing(sole).corners != 0; }
 
-  // By degree of freedom: true if it belongs to a leg that stands.
+  // Is true, by degree of freedom, for those of legs that stand.
   std::span<const char> stands_by_dof() const { return by_dof_; }
 
   void put(int sole, const Bearing& bearing);

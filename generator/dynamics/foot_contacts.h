@@ -47,15 +47,15 @@ class FootContacts {
   // The sole in the air whose leg has this degree of freedom; -1 for others.
   int swinging(int dof) const;
   void ask_less(int sole, double share, std::span<const double> acceleration);
-  // With the rows: the nearest accelerations that guide the soles.
+  // Moves accelerations to the nearest ones that guide the soles. Needs the rows.
   void keep(std::span<double> acceleration) { project_on_support(ease_, support_, acceleration); }
-  // With the rows: stops all soles by impulses of the ground. Needs find_mass and find_factors.
+  // Stops all soles by impulses of the ground. Needs the rows, find_mass and find_factors.
   void stop(EquationOfMotion& equation);
 
   const Feet& feet() const { return feet_; }
   SupportRows& support() { return support_; }
   std::span<const double> ease() const { return ease_; }
-  // By degree of freedom: true if it belongs to a guided leg.
+  // Is true, by degree of freedom, for those of guided legs.
   std::span<const char> led_by_dof() const { return led_by_dof_; }
   std::span<const double> firmness() const { return firmness_; }    // by sole, squared: firmness in feet.h
 

@@ -16,7 +16,7 @@ struct FootLift {
   Rigid to;       // where it lands
 };
 
-// By sole, then by frame.
+// Returns all lifts, ordered by sole and then by frame.
 std::vector<FootLift> foot_lifts(const ContactPlan& plan, int soles);
 
 // Keeps feet that bear the figure flat on the ground while another foot is lifted, if they would return to their place:

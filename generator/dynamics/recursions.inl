@@ -26,7 +26,7 @@ inline Vector product(const WideMat3& m, const Vec3& v) {
   return v.x * load(m[0]) + v.y * load(m[1]) + v.z * load(m[2]);
 }
 
-// What a turn about an axis through a link's origin does, about the root's.
+// Stores the motion of a rotation about an axis through a link's origin, relative to the root's origin.
 inline void put_turning(const Vector& axis, const Vector& origin_m, SpatialMotion& out) {
   store(axis, out.angular);
   store(cross(origin_m, axis), out.linear);
@@ -123,7 +123,7 @@ inline void add_joint(const Link& link, const double* velocity, const double* ac
   store(load(scratch.acceleration[parent]) + change + carried, scratch.acceleration[i]);
 }
 
-// As force_of().
+// Computes the same as force_of().
 inline void put_force(const SpatialInertia& i, const SpatialMotion& motion, const SpatialMotion& change,
                       SpatialForce& out) {
   const Twist v = load(motion), a = load(change);

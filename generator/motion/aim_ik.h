@@ -28,7 +28,7 @@ struct AimResult {
 // that hang on the chain are stale. Only the chain's coordinates change; travels stay where they are. Nothing here
 // allocates.
 
-// From the present posture, the entry for every frame after the first. No turn about an axis is more than twice the
+// Starts from the present posture; for every frame after the first. No turn about an axis is more than twice the
 // error that is left, so a target that moves a little moves the joints a little. It may get stuck at limits where
 // another posture would reach (0 to 25 frames of 3,000 in the tests): then `reached` is false, and aim() finds the
 // other posture, to which the caller blends. Joints that are out of range on entry are brought into it; that may be a
@@ -36,8 +36,8 @@ struct AimResult {
 AimResult continue_aim(const Character& character, const AimChain& chain, std::span<Rigid> world,
                        const AimTarget& target, std::span<double> row);
 
-// From the table: interpolated between near postures, then from the nearest, one after another, until one gets
-// there. Where none does, the posture with the smallest error stays. `table` must be of this chain's geometry.
+// Starts from the table: from the mean of near postures, then from the nearest ones, until one reaches the target. If
+// none does, the posture with the smallest error is kept. `table` must be of this chain's geometry.
 AimResult aim(const Character& character, const AimChain& chain, const AimTable& table, std::span<Rigid> world,
               const AimTarget& target, std::span<double> row);
 

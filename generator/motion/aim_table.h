@@ -44,7 +44,7 @@ class AimTable {
   const AimTableOptions& options() const { return options_; }
   int posture_count() const { return static_cast<int>(directions_.size()); }  // >= 1
 
-  // In the frame of the chain's base. Travels of the posture are those nearest to rest.
+  // Postures are in the frame of the chain's base. Travels of the posture are those nearest to rest.
   std::span<const double> coords(int posture) const;
   const Vec3& direction(int posture) const { return directions_[static_cast<std::size_t>(posture)]; }
   const Vec3& point_m(int posture) const { return points_m_[static_cast<std::size_t>(posture)]; }

@@ -73,7 +73,7 @@ class LimbRoom {
   // m; negative if they are too near. `world` holds the transforms of all joints; for parts that have not moved yet in
   // this frame, those of the previous frame. Not for the root part.
   double room_m(std::size_t part, std::span<const Rigid> world, const RoomRange& range = {});
-  // As room_m(), but only between bodies of the figure, without the ground, obstacles and feet.
+  // Returns the same as room_m(), but only between bodies of the figure, without the ground, obstacles and feet.
   double apart_m(std::size_t part, std::span<const Rigid> world, const RoomRange& range = {});
 
   // Returns true if room_m() is at least this, up to 0.08 m, with this gap between bodies of the figure.
@@ -81,7 +81,7 @@ class LimbRoom {
     return room_m(part, world, {least_m, least_m, gap_m}) >= least_m;
   }
 
-  // As room_m(), with all joints as in `world` and a hand that holds an object; without the ground and feet.
+  // Returns the same as room_m(), with joints as in `world` and a hand that holds an object; without ground and feet.
   double room_beside_m(std::size_t part, const HeldObject& held, std::span<const Rigid> world);
 
   // The least distance of the bodies on a joint from a plane, on the side of its normal, m.

@@ -83,8 +83,8 @@ bool takes_its_time(const PlannedAction& action);
 // Progress of an action at a frame of its sequence, in [0, 1].
 double progress(const PlannedAction& action, int frame);
 
-// How far an action has blended in, where a course took its part at `came`; and the fraction left while it fades out.
-// Frames of its sequence; both in [0, 1].
+// Return the fraction to which an action has blended in since a course took its part at `came`, and the fraction that
+// is left while it fades out; both in [0, 1]. Frames are those of its sequence.
 double blended_in(const PlannedAction& action, double came, int frame);
 double not_blended_out(const PlannedAction& action, int frame);
 

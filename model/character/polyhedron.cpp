@@ -95,7 +95,7 @@ std::vector<int> loop_of(std::span<const Vec3> points, const Facet& facet, doubl
     for (const std::size_t i : on) {
       if (i == here) continue;
       const Vec3 step = points[next] - points[here], other = points[i] - points[here];
-      // How far `other` is to the right of the line to `next`.
+      // The distance of `other` to the right of the line to `next`.
       const double right = next == here ? 1.0 : -glm::dot(glm::cross(step, other), facet.normal) / length(step);
       const bool farther = glm::dot(other, other) > glm::dot(step, step);
       if (next == here || right > tolerance || (right > -tolerance && farther && glm::dot(other, step) > 0.0)) next = i;

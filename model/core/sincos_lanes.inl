@@ -18,7 +18,7 @@ inline Lanes sum_of(const Lanes& r2, const Lanes& r4) {
          ((c[4].*kOf + c[5].*kOf * r2) + (c[6].*kOf + c[7].*kOf * r2) * r4) * (r4 * r4);
 }
 
-// Of angles within 1e9.
+// Computes sines and cosines of angles within 1e9.
 inline void sincos_of_lanes(const double* x_rad, SinCos* out) {
   Lanes x;
   __builtin_memcpy(&x, x_rad, sizeof x);

@@ -8,7 +8,7 @@
 
   // ---- pictures that are missing
 
-  // In the head, so that it is listening before the first picture can fail.
+  // This script is in the head, so that it listens before the first picture can fail.
   document.addEventListener('error', (event) => {
     if (event.target.closest?.('.thumb')) { event.target.remove(); return; }
     const text = event.target.dataset && event.target.dataset.missing;
@@ -232,7 +232,7 @@
 
   const rememberFrame = (key, frame) => {
     clearTimeout(shown.addressTimer);
-    // Not at each step of a drag: browsers limit how often an address may change.
+    // The address does not change at each step of a drag, because browsers limit such changes.
     shown.addressTimer = setTimeout(() => {
       if (shown.key === key) address.write({ case: key, frame, ...filterState() });
     }, 150);

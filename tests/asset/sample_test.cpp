@@ -56,7 +56,7 @@ TEST(Sample, StepHoldsUntilTheNextKey) {
   EXPECT_EQ(sample_rotation(r, 0.999), kNoRotation);
 }
 
-// By hand from appendix C of the standard, at t = 1/2 with a key distance of 2 s: v0/2 + b0/4 + v1/2 - a1/4.
+// Computed by hand from appendix C of the standard, at t = 1/2 with a key distance of 2 s: v0/2 + b0/4 + v1/2 - a1/4.
 TEST(Sample, SplinesFollowTheStandard) {
   AssetChannel c = moves({9, 9, 9, 1, 0, 0, 8, 0, 0, 4, 0, 0, 3, 0, 0, 9, 9, 9}, Interpolation::cubic_spline);
   c.times_s = {1.0, 3.0};

@@ -72,9 +72,9 @@ TEST(AimError, OutOfReachIsAnUnmetRequestAndNoFinding) {
   const Vec3 behind(0.0, 1.5, -3.0);
   const std::vector<UnmetRequest> hurried = unmet_of({head_aims_at(behind)});
   const int head = evaluator.execution().character->find_part("head");
-  // In the last frame before it fades: until then the figure is turning.
+  // The request is unmet in the last frame before it fades, because until then the figure is turning.
   EXPECT_EQ(hurried, (std::vector{UnmetRequest{50, 50, head, "aim", Shortfall::joint_speed}}));
-  // From the frame in which the aim is blended in, in which neither torso nor legs may help.
+  // If neither torso nor legs may help, it is unmet from the frame on in which the aim is blended in.
   const std::vector<UnmetRequest> alone = unmet_of({head_aims_at(behind), use("look_at", "torso", 0, 60, {}),
                                                     use("crouch", "waist", 0, 60, {{"share", 0.05}})});
   EXPECT_EQ(alone, (std::vector{UnmetRequest{20, 50, head, "aim", Shortfall::out_of_reach}}));

@@ -89,8 +89,8 @@ ShownClip blown_up(double inside) {
   return {joints_with(keys_of(ChannelPath::scale, scales)), false, {}};
 }
 
-// To and fro at each key by as much on either side: four fifths of that are its distance from the mean of five keys,
-// which may be 2 degrees.
+// Turns to and fro at each key by the same angle on both sides. Four fifths of that angle are its distance from the
+// mean of five keys, which may be 2 degrees.
 ShownClip shaking(double inside) {
   std::vector<double> angles;
   for (int key = 0; key < 31; ++key) angles.push_back((key % 2 == 0 ? 1.25 : -1.25) * (2.0 * kRadPerDeg - inside));

@@ -86,7 +86,7 @@ TEST(ClipSpeed, TheSignOfAQuaternionIsNoMotion) {
 }
 
 TEST(ClipSpeed, ASplineIsSampledBetweenItsKeys) {
-  // From standing to standing over a radian in a second: smoothstep, at most 1.5 in the middle, 1.49 over an eighth.
+  // The clip turns by a radian in a second, from rest to rest: a smoothstep, at most 1.5 and, over an eighth, 1.49.
   const ClipSpeeds s = speeds(spline({0, 1}, {0, 1.0}, 0.0));
   EXPECT_GT(s.peak_rad_s, 1.4);
   EXPECT_LT(s.peak_rad_s, 1.55);

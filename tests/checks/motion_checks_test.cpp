@@ -216,7 +216,7 @@ TEST(Residue, IsNotJudgedFromAFrameInWhichThePartMoves) {
   for (int frame = 0; frame < 5; ++frame) motion.row(frame)[coord] += 0.01 * (5 - frame);
   const Intent intent = intent_of(stage);
   EXPECT_TRUE(StageEvaluator().judge(*stage.character, motion, "residue", stage.environment, &intent).empty());
-  // At rest, but for rounding as generators have it.
+  // The part is at rest, except for rounding as generators have it.
   for (int frame = 0; frame < 4; ++frame) motion.row(frame)[coord] = motion.row(4)[coord] + 1e-7 * (frame % 2);
   EXPECT_EQ(StageEvaluator().judge(*stage.character, motion, "residue", stage.environment, &intent).size(), 1U);
 }

@@ -57,8 +57,8 @@ Solid solid_of_geom(const mjModel& model, const mjData& data, int geom) {
   return solid_of(Capsule{center - half, center + half, size[0]});
 }
 
-// As MuJoCo does: not of one body, not of neighbours, not of an excluded pair. Bodies without a joint are one with the
-// body that carries them.
+// Returns true for pairs that MuJoCo judges: not in one body, not in neighbours, and not excluded. Bodies without a
+// joint count as the body that carries them.
 bool may_touch(const mjModel& model, int a, int b) {
   const int body_a = model.geom_bodyid[a], body_b = model.geom_bodyid[b];
   const int whole_a = model.body_weldid[body_a], whole_b = model.body_weldid[body_b];

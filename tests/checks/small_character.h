@@ -106,7 +106,7 @@ inline void set(Motion& motion, int frame, const Joint& joint, const Quat& q) {
   out[0] = q.w, out[1] = q.x, out[2] = q.y, out[3] = q.z;
 }
 
-// At rest, as if dynamics had made it: on its feet, without any effort.
+// Returns a motion at rest as if dynamics had made it: on its feet, without any effort.
 inline Motion moved_by_dynamics(const Character& character, int frames = 1) {
   Motion motion = at_rest(character, frames);
   Response& response = motion.response;

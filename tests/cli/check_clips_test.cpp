@@ -71,7 +71,7 @@ TEST_F(CheckClips, AnAmcIsJudgedByItsOwnLimits) {
   EXPECT_EQ(out["clips"][0]["findings"][0]["worst_frame"], 7);
 }
 
-// How many findings of joint_range there are, and how many of them have this subject.
+// Returns the number of findings of joint_range, and the number of those with this subject.
 std::pair<int, int> range_findings(const Ran& ran, const std::string& subject) {
   const Json out = Json::parse(ran.out, nullptr, false);
   std::pair<int, int> counts;

@@ -22,7 +22,7 @@ std::string script(const std::string& words) {
   return "/usr/bin/python3 " CONTORT_SOURCE_DIR "/tests/guest/broken/" + words.substr(0, end) + ".py" + words.substr(end);
 }
 
-// Only the lines about faults and the notes.
+// Returns only the lines about faults, and the notes.
 std::string remarks_of(const std::string& out) {
   std::string remarks;
   std::istringstream lines(out);

@@ -9,7 +9,7 @@ namespace contort {
 
 namespace {
 
-// For every command that reads a corpus: a mistyped path makes no empty corpus, in which nothing would be found.
+// No command that reads a corpus creates an empty one, without findings, at a mistyped path.
 TEST(MistypedCorpus, IsAnErrorAndMakesNothing) {
   const TempFolder folder;
   const Corpus corpus = create(folder);

@@ -15,7 +15,7 @@ const char* const kCommands[] = {"fuzz", "replay", "generate", "check",    "shri
                                  "list", "schema", "import",   "contacts", "merge",  "version", "help",   "man",
                                  "completion"};
 
-// One line for people, and no motion found to be clean.
+// Expects one line for people, and no verdict that a motion is clean.
 void expect_refused(const std::vector<std::string>& arguments, int code, const std::string& needle = "") {
   const Ran ran = contort_program(arguments);
   std::string call;

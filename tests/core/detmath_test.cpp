@@ -132,7 +132,7 @@ TEST(Detmath, ManyAtATimeAreTheSameBits) {
   const auto bits = [](const det::SinCos& v) {
     return std::pair(std::bit_cast<std::uint64_t>(v.sin), std::bit_cast<std::uint64_t>(v.cos));
   };
-  // From the ninth on all are angles: a row with anything else is computed one by one.
+  // All values from the ninth on are angles; rows with other values are computed one by one.
   for (const std::size_t first : std::initializer_list<std::size_t>{0, 1, 2, 8, 9, 10})
     for (const std::size_t count : std::initializer_list<std::size_t>{0, 1, 2, 3, 4, 6, 7, angles.size() - first}) {
       const std::span<const double> row = std::span(angles).subspan(first, count);

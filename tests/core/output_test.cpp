@@ -96,7 +96,7 @@ TEST_F(Output, LinksInACircleAreRefused) {
   EXPECT_TRUE(fs::is_symlink(at("a")));
 }
 
-// As /dev/null is made; never the real one.
+// Makes a device like /dev/null, to spare the real one.
 TEST_F(Output, ADeviceStaysADevice) {
   if (::mknod(at("null").c_str(), S_IFCHR | 0600, ::makedev(1, 3)) != 0)
     GTEST_SKIP() << "needs the right to make devices";

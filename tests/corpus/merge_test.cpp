@@ -140,7 +140,7 @@ Failures draw_failures() {
   return failures;
 }
 
-// With repetition, and in any order.
+// Draws corpora in any order, with repetition.
 std::vector<Corpus> draw_some(const Corpora& corpora) {
   std::vector<Corpus> some;
   const int count = *rc::gen::inRange(1, 5);

@@ -38,7 +38,7 @@ class Upkeep : public testing::Test {
     EXPECT_TRUE(done(upkeep(corpus_)).empty());
     EXPECT_EQ(first_difference(before, tree_of(corpus_.folder())), "");
   }
-  // As if it was named by other rules.
+  // Returns the bucket as if other rules had named it.
   Bucket named_otherwise(const std::string& features) {
     Bucket old = bucket_;
     old.features = features;

@@ -33,7 +33,7 @@ struct Resting {
     accelerations[static_cast<std::size_t>(dof)] = acceleration;
     inverse_dynamics(figure.body, zeros(), accelerations, 0.0, scratch, forces);
   }
-  // By how much they move the zero moment point on the ground below a root that stands upright, m.
+  // Returns the distance by which they move the zero moment point on the ground below an upright root, m.
   double zmp_shift_m() const {
     const double height_m = scratch.world[0].origin_m.y;
     const double x = forces[5] - height_m * forces[0], z = forces[3] + height_m * forces[2];

@@ -72,7 +72,7 @@ class Played {
     return range;
   }
 
-  // Between any two bodies that must not touch.
+  // Returns the least gap between any two bodies that must not touch.
   double least_gap_m(int frame) const {
     std::vector<Rigid> world(character().joints().size());
     forward_kinematics(character(), motion.root[static_cast<std::size_t>(frame)], motion.row(frame), world);

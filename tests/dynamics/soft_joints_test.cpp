@@ -43,7 +43,7 @@ struct JoltScene {
     for (int f = 0; f < 120; ++f)
       motion.row(f)[coord(joint)] = angle_rad * minimum_jerk(std::clamp((f - 30) / 60.0, 0.0, 1.0));
   }
-  // How deep the left foot is in the ground at most, and how far its toes go while they touch it, m.
+  // Return the greatest depth of the left foot in the ground, and the distance that its toes move while they touch it.
   double deepest_m() const {
     double deepest = 0.0;
     for (int f = 0; f < 120; ++f)

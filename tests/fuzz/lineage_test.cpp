@@ -66,7 +66,7 @@ TEST(Lineage, EveryArmHasItsShare) {
   EXPECT_EQ(percent.size(), expected.size());
 }
 
-// At both ends an eighth of each, but for the few that are drawn there.
+// An eighth of all numbers is at each end of the range, plus the few that are drawn there by chance.
 TEST(Corners, AreInSequencesAndInterruptsAndOnTheGround) {
   std::map<std::string, std::array<int, 3>> seen;  // number of values at 0, at the upper end, and in all
   const auto look = [&](const std::string& name, std::span<const int> numbers) {

@@ -54,7 +54,7 @@ class Aimed {
       slots.insert(stage.character->parts()[static_cast<std::size_t>(span.part)].slot);
     return slots;
   }
-  // By how much a socket's +Z is off from a point in the last frame.
+  // Returns the angle between a socket's +Z and the direction to a point in the last frame.
   double off_rad(const std::string& socket, const Vec3& target_m) const {
     const Motion& motion = execution.motion;
     std::vector<Rigid> world(stage.character->joints().size());

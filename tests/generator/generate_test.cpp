@@ -220,7 +220,7 @@ class SpanRule {
     });
   }
   bool fades(const PlannedAction& a, int frame) const { return not_blended_out(a, frame - offset(a)) < 1.0; }
-  // That of a leg or foot.
+  // Returns the course of a leg or foot.
   const PlannedAction* course_of(int part, int frame) const {
     for (const PlannedAction& root : actions_)
       if (root.part == 0 && root.further < 0 && root.def->spread == Spread::legs && is_last(root, frame))

@@ -189,7 +189,7 @@ RC_GTEST_PROP(Ik, HingeAnglesRecomposeAnyRotation, ()) {
   RC_ASSERT(fixtures::difference(composed(x, y, z, angles), wanted) < 1e-9);
 }
 
-// For any two hinges, not only for those at right angles.
+// This holds for any two hinges, not only for those at right angles.
 RC_GTEST_PROP(Ik, TwoHingesTurnAnAxisToEveryDirectionThatTheyCanReach, ()) {
   const HingePair pair{any_quat() * Vec3(1, 0, 0), any_quat() * Vec3(0, 0, 1), any_quat()};
   const Vec3 axis = any_quat() * Vec3(0, 1, 0);

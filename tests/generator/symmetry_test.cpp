@@ -41,9 +41,9 @@ void keep_one_action(Spec& spec, std::int64_t which) {
   if (!actions.empty()) actions = {actions[static_cast<std::size_t>(which) % actions.size()]};
 }
 
-// Without aim, which is iterated to within 1e-5 rad, so its postures may differ by as much; a separate test is below.
-// Without touch, which chooses among 24 swivels, of which two may be equally good. Every second spec keeps one action
-// of its first clip, because crowds of actions are nearly always hindered.
+// Draws a spec without aim and touch. Aim is iterated to within 1e-5 rad, so its postures may differ by as much; a
+// separate test is below. Touch chooses among 24 swivels, of which two may be equally good. Every second spec keeps
+// one action of its first clip, because crowds of actions are nearly always hindered.
 Spec drawn(std::int64_t index) {
   Spec spec = draw_spec({{"human", "mech", "quadruped"}}, stock_generator(), 21, index);
   spec.dynamics = {};  // these laws are about actions; control decides by thresholds
@@ -269,7 +269,7 @@ TEST(Symmetry, AMirroredSpecGivesTheMirroredMotion) {
   EXPECT_GE(judged, kLeast);
 }
 
-// By how much the muzzle misses a target, given as seen from where the character stood at first, in the last frame.
+// Returns the angle by which the muzzle misses a target in the last frame. The target is relative to the start place.
 double aim_error_rad(const StartDesc& start, const std::string& side, const Vec3& target_m) {
   Spec spec;
   spec.start = start;

@@ -49,7 +49,7 @@ Expected of_facts(const std::string& facts) {
   return out;
 }
 
-// By the path below shared/assets/gltf.
+// Returns the expectations by path below shared/assets/gltf.
 std::map<std::string, Expected> malformed_files() {
   std::map<std::string, Expected> out;
   std::ifstream manifest(kTableFolder + "/MANIFEST.tsv");

@@ -61,7 +61,7 @@ Texts case_seeds() {
   return out;
 }
 
-// Under names that are not taken.
+// Returns the seeds, renamed to names that are not taken.
 Texts description_seeds() {
   Texts out = texts_in("docs/examples/own_actions");
   for (auto [name, part] : stock_library().parts) part.name = "own", out.push_back(print_part(part));

@@ -27,7 +27,7 @@ std::string code_of(std::string_view bytes, const AimGeometry& geometry, const A
   return read ? "" : read.issue().code;
 }
 
-// With the hash that fits, as a hostile writer would have it.
+// Replaces the hash by the one that fits, as a hostile writer would.
 std::string rehashed(std::string bytes) {
   bytes.resize(bytes.size() - 8);
   Hash64 hash;

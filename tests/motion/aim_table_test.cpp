@@ -132,7 +132,7 @@ TEST(AimTable, AnswersFewerHitsThanAskedWhenThereAreFewerPostures) {
   EXPECT_EQ(table.nearest(Vec3(0, 0, -1), {}), 0);
 }
 
-// In range, and never worse than the nearest posture.
+// The interpolated posture is in range, and never worse than the nearest one.
 TEST(AimTable, InterpolationIsNoWorseThanTheNearest) {
   std::mt19937_64 random(10);
   double sum_nearest = 0.0, sum_between = 0.0;

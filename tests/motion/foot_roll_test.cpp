@@ -44,7 +44,7 @@ TEST(FootRoll, KnowsWhatAFootStandsOn) {
   EXPECT_EQ(lower_end_m(leg, Rigid{}), Vec3(0.0));
 }
 
-// In stance and swing, and where one becomes the other: a thousandth of either moves the share by a hundredth at most.
+// In stance, in swing and between them, a thousandth of a phase changes the share by a hundredth at most.
 TEST(FootRoll, NeverJumps) {
   constexpr int kSteps = 1000;
   constexpr double kDuty = 0.6;

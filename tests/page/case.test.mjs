@@ -170,7 +170,7 @@ for (const way of ['file', 'http']) {
     const { page, wrong, close } = await openCase(await start(), moving, { frame: 0 });
     const first = await picture(page);
     assert.ok(first.equals(await picture(page)), 'a paused picture stands still');
-    // So slowly that a motion of a quarter of a second is not over before a busy machine has looked.
+    // Play slowly, so that a motion of a quarter of a second does not end before a busy machine has looked.
     await page.selectOption('.speed', '0.1');
     await page.locator('.case-title').focus();
     await page.keyboard.press(' ');

@@ -55,7 +55,7 @@ export class MockServer {
     return new Promise((done) => this.server.close(done));
   }
 
-  // As after a restart: nobody has a session any more.
+  // Ends all sessions, as a restart does.
   forget() {
     for (const session of this.sessions.values()) session.end();
     this.sessions.clear();
@@ -184,7 +184,7 @@ export class MockServer {
   }
 }
 
-// Also by itself.
+// The server can also be started by itself.
 if (import.meta.url === pathToFileURL(process.argv[1]).href) {
   const words = Object.fromEntries(process.argv.slice(2).join(' ').split('--').slice(1).map((word) => word.trim().split(' ')));
   const mock = new MockServer({ contort: words.contort, pages: resolve(words.pages), report: words.report && resolve(words.report) });

@@ -43,7 +43,7 @@ const pause = async (page) => {
   await settle(page);
 };
 
-// Until the page shows what the last command made: frames after the clock's, too, as the camera follows a mean of both.
+// Waits until the page has the motion of the last command, also in later frames, because the camera follows a mean.
 async function caughtUp(page) {
   await page.waitForFunction((revision) => [...window.contortPlay.tracks.of.values()].every((track) => track.revision >= revision),
     sessionOf().revision);

@@ -54,7 +54,7 @@ test('the viewer shows each tile of the film strip as it was drawn', { skip }, a
   });
 });
 
-// Else the test above would prove nothing.
+// Otherwise the test above would prove nothing.
 test('a figure whose arm is elsewhere is not the same', { skip }, async (t) => {
   const turn = [Math.sin(Math.PI / 6), 0, 0, Math.cos(Math.PI / 6)];
   const tile = tilesOfStrip().find(({ frame }) => frame === data.motions[0].worst_frame);

@@ -40,7 +40,7 @@ RC_GTEST_PROP(Camera, HasAllPointsInItsPictureAndNoneToSpare, ()) {
   const double aspect = *rc::gen::element(0.5, 1.0, 4.0 / 3.0, 3.0);
   const Camera camera = frame_points(points, view, aspect);
   RC_ASSERT(worst_edge(camera, aspect, points) < 1.0);
-  // As near as may be: something touches the margin, or keeps the least distance from the eye.
+  // The camera is as near as allowed: a point touches the margin, or has the least distance from the eye.
   double nearest = std::numeric_limits<double>::infinity();
   for (const Vec3& p : points) nearest = std::min(nearest, glm::dot(camera.back, camera.eye_m - p));
   RC_ASSERT(nearest > 0.59);

@@ -45,7 +45,7 @@ TEST(CaseData, TheFailuresCurveIsFirstAndAsDeepAsItsFinding) {
   EXPECT_GE(margins[motion["first_frame"].get<std::size_t>() - 1], 0.0);
 }
 
-// In units of their checks: an elbow 5 degrees inside its range is farther from its limit than solids 1 mm apart.
+// Curves are compared in units of their checks: an elbow 5 degrees in its range is safer than solids 1 mm apart.
 TEST(CaseData, OtherCurvesFollowByHowNearTheyCame) {
   const Json data = data_of({{"minimal", failing_case(bent_elbow(158), "joint_range", kElbow)}});
   const Json& curves = data["motions"][0]["curves"];

@@ -263,7 +263,7 @@ TEST(Markdown, TheTableHasWhatGatesAndNoMoreThanAPageHolds) {
   EXPECT_TRUE(long_one.ends_with("\n30 more\n"));
 }
 
-// As a table is read: a backslash and the sign behind it are one, and any other bar ends a cell.
+// Counts cells as a reader of tables does: a backslash escapes the next character, and every other bar ends a cell.
 int cells_of(const std::string& line) {
   int bars = 0;
   for (std::size_t i = 0; i < line.size(); ++i) {

@@ -33,7 +33,7 @@ std::vector<FailureTraits> draw_many() {
   return all;
 }
 
-// To the nearest of the first `count` in the order.
+// Returns the distance to the nearest of the first `count` in the order.
 double nearest(const std::vector<FailureTraits>& all, const std::vector<std::size_t>& order, std::size_t count,
                std::size_t one) {
   double least = std::numeric_limits<double>::infinity();

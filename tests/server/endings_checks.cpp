@@ -61,7 +61,7 @@ std::vector<int> below(int pid) {
   return all;
 }
 
-// With something in its folder.
+// Uses the server, so that its folder has files.
 void use(const Program& server) {
   httplib::Client client = server.client();
   const std::string library =

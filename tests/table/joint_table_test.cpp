@@ -63,7 +63,7 @@ TEST(JointTable, KeepsTheUnitsOfItsNames) {
   EXPECT_EQ(table.columns[2].unit, "");
 }
 
-// As rostopic echo -p writes it.
+// The table is like those that rostopic echo -p writes.
 TEST(JointTable, OfRosHasTheNamesOfItsPositionsInCells) {
   const std::string head = "%time,field.header.stamp,field.header.frame_id,field.name0,field.name1,"
                            "field.position0,field.position1,field.velocity0\n";

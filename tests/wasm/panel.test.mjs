@@ -62,7 +62,7 @@ test('the engine is small, and starts within a second', async () => {
   assert.ok(Math.min(...times_ms) <= kMost_ms, `${times_ms} ms`);
 });
 
-// What the engine of the open page makes of a spec.
+// Returns the result of the open page's engine for a spec.
 function playedIn(page, spec, { check, subject }) {
   return page.evaluate(async (texts) => {
     const packed = Uint8Array.from(atob(window.contortEngine.packed), (sign) => sign.charCodeAt(0));

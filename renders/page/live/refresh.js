@@ -50,7 +50,7 @@ export class Refresh {
       gone ? `${gone} gone` : ''].filter(Boolean).join(', ').replace(', ', ': ');
   }
 
-  // Not while somebody looks at a case or writes.
+  // Loads the page again, but not while somebody looks at a case or writes.
   loadAnew() {
     const busy = document.documentElement.classList.contains('case-open') || document.querySelector('.live-bar form');
     if (!busy) location.reload();
@@ -99,7 +99,7 @@ export class Refresh {
 
   replaceList(failures, next, barOf) {
     const form = failures.querySelector('.filter');
-    // From or to a report without failures: nothing is worth keeping.
+    // If the old or the new report has no failures, there is no state to keep.
     if (!form || !next.querySelector('.filter')) {
       failures.replaceWith(document.adoptNode(next));
       this.remember(next);

@@ -30,7 +30,7 @@ export function numberField(name, { value = '', low, high, step = 'any', unit, p
   });
   const read = () => (input.value === '' || !Number.isFinite(input.valueAsNumber) ? null : input.valueAsNumber);
   const element = labelled(unit ? `${name}, ${unit}` : name, input);
-  // For the hand only: the keyboard has the number itself.
+  // The slider is for pointers only; keyboards use the number field.
   if (slider && low < high) {
     const range = el('input',
       { type: 'range', tabindex: '-1', 'aria-hidden': 'true', ...bounds, step: (high - low) / 100 });

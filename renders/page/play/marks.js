@@ -12,7 +12,7 @@ export class PushArrow {
     this.object.visible = false;
   }
 
-  // From a point along a drag, both in the world: as long as the drag. The drawn arrow ends at its own origin.
+  // Shows an arrow from a point along a drag, as long as the drag, both in the world. The mesh ends at its origin.
   show(from, drag) {
     this.object.visible = drag.length() > 1e-3;
     this.object.position.copy(from).add(drag);

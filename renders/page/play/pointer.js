@@ -59,7 +59,7 @@ export class PointerTool {
     document.addEventListener('keydown', this.escape, true);
   }
 
-  // On the plane through what was grasped that faces the viewer.
+  // Returns the drag in the plane that faces the viewer and goes through the grasped point.
   pulled(event) {
     const { drag } = this;
     const from = drag.joint.localToWorld(drag.local.clone());

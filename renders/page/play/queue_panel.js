@@ -70,7 +70,7 @@ export class QueuePanel {
     this.setFrame(this.frame ?? 0);
   }
 
-  // Which of them plays.
+  // Marks the entry that plays.
   setFrame(frame) {
     this.frame = frame;
     for (const { entry, element, when } of this.entries ?? []) {

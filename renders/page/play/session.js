@@ -27,7 +27,7 @@ export class Session {
     this.enter(state);
   }
 
-  // One that is there already: after the page was loaded again. False where it has ended.
+  // Continues an existing session after the page was loaded again. Returns false if it has ended.
   async resume(id) {
     this.id = id;
     try {
@@ -100,7 +100,7 @@ export class Session {
     return (await call('GET', path, undefined, { ...this.options(), as: 'blob' })).arrayBuffer();
   }
 
-  // As a file to be saved.
+  // Returns the motion as a file to be saved.
   motion(mode) {
     return call('GET', this.path(`/motion.glb?mode=${encodeURIComponent(mode)}`), undefined,
       { ...this.options(), as: 'blob' });
@@ -112,7 +112,7 @@ export class Session {
   }
 }
 
-// For errors that come through the stream.
+// Makes an error from one that came through the stream.
 export function problemOf(data) {
   return new ApiError({
     status: 200, code: String(data?.code ?? ''), pointer: String(data?.pointer ?? ''), text: String(data?.text ?? ''),

@@ -31,7 +31,7 @@ export class Tracks {
       { revision: 0, frames: [], curves: [], findings: [], spans: [], marks: [] }]));
   }
 
-  // Whether data of this event belongs to the present take.
+  // Returns the mode's track if the data of an event belongs to the present take.
   track(data) {
     return data.take === this.take ? this.of.get(data.mode) : undefined;
   }

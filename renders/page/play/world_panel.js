@@ -122,7 +122,7 @@ export class WorldPanel {
   }
 }
 
-// Which modes are computed, one beside the other.
+// Chooses the modes that are computed and shown side by side.
 export class ModesField {
   constructor(app) {
     this.app = app;

@@ -19,7 +19,7 @@ export function sentence(error) {
 
 const sleep = (seconds) => new Promise((done) => { setTimeout(done, 1000 * seconds); });
 
-// As the server asked; else longer with each try.
+// Returns the time that the server asked for, or else one that grows with each attempt.
 function waitOf(answer, attempt) {
   const asked = Number(answer.headers.get('Retry-After'));
   return Math.min(kLongestWait_s, asked > 0 ? asked : 2 ** attempt / 2);

@@ -203,7 +203,7 @@ export class CaseView {
     this.player.seek(this.motion.worst);
   }
 
-  // Without telling the page: another case takes its place.
+  // Closes the case without telling the page, because another case takes its place.
   dispose() {
     this.player.pause();
     this.stopKeys();

@@ -101,7 +101,7 @@ export async function loadFigure(glb, rate) {
   return new Figure(gltf, rate);
 }
 
-// Without gzip, and without an animation.
+// Loads a figure from a model that is not compressed and has no animation.
 export async function loadModel(glb) {
   return new Figure(await new GLTFLoader().parseAsync(bytesOf(glb).buffer, ''), 1);
 }
@@ -117,7 +117,7 @@ export function pathOf(figure, frameCount) {
   const reach = Math.max(1, Math.round(figure.rate / 2 / stride));
   const smooth = raw.map((_, i) => {
     const sum = new Vector3();
-    // As many before as after, also near the ends: the middle of a steady walk stays in the middle.
+    // The mean has equally many frames before and after, also near the ends, so that a steady walk stays in the middle.
     const side = Math.min(reach, i, raw.length - 1 - i);
     for (let j = i - side; j <= i + side; ++j) sum.add(raw[j]);
     return sum.divideScalar(2 * side + 1);

@@ -1,4 +1,4 @@
-// What a case does not say by its failure: requests that were not met, and checks that could not judge.
+// Lists what a case's failure does not show: requests that were not met, and checks that could not judge.
 import { el } from './dom.js';
 import { interval } from './format.js';
 

@@ -40,7 +40,7 @@ export class Pane {
     this.pose(this.startFrame());
     const box = figure.box();
     this.radius = Math.max(0.2, box.getSize(new Vector3()).length() / 2);
-    // From the middle of the joints to that of what is seen: a large head is above all joints.
+    // The way from the middle of the joints to that of the visible figure, as a large head is above all joints.
     this.offset = box.getCenter(new Vector3()).sub(this.path(this.startFrame()));
     this.lights = lights(colours);
     this.obstacles = obstacleGroup(motion.obstacles, colours);

@@ -1,5 +1,5 @@
-// Which frame is shown. Frames are whole numbers; while playing, time runs and the frame is its nearest one, so that
-// every picture is a frame that was judged, never something in between.
+// Chooses the frame that is shown. Frames are whole numbers; while playing, time runs and the frame is its nearest one,
+// so that every picture is a frame that was judged, never something in between.
 
 export class Player {
   // calls: frame(n) after every change, playing(flag)

@@ -173,7 +173,7 @@ export class Stage {
     this.controls.maxDistance = Math.max(kFarthest_m, farthest);
   }
 
-  // As a tile of the film strip (strip_view.js). A picture that is narrower than the tile shows all of it, smaller.
+  // Looks from the camera of a film strip's tile (strip_view.js). A narrower picture shows all of the tile, smaller.
   lookAs({ eye, target, tangent, aspect }) {
     const [pane] = this.panes;
     if (!pane) return;

@@ -1,5 +1,5 @@
-// From where the film strip's tiles are seen (contort.strip/1 in docs/reference/report.md), so that the moving picture
-// can be looked at from the same place.
+// The cameras of the film strip's tiles (contort.strip/1 in docs/reference/report.md), so that the moving picture can
+// be seen from the same place.
 import { Vector3 } from 'three';
 import { Damaged } from './case_data.js';
 

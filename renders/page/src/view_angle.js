@@ -1,4 +1,4 @@
-// From where to look: the side on which the failing parts are not hidden, and a pair is seen side by side.
+// Chooses the side from which the failing parts are not hidden, and a pair is seen side by side.
 import { Raycaster, Vector3 } from 'three';
 
 const kProbes = 16;

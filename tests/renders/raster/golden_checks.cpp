@@ -46,7 +46,7 @@ Pose pose_of(const Spec& spec) {
   return pose;
 }
 
-// Without text, because fonts are not tested; from a fixed side, because a moved limb could move the camera.
+// Draws without text, as fonts are not tested, and from a fixed side, as a moved limb could move the camera.
 Image draw(const Pose& pose, const DynamicsDesc& dynamics, const std::string& path) {
   static StripRenderer renderer = StripRenderer::create().value();
   StripInput input{*pose.stage.character, pose.motion};

@@ -84,7 +84,7 @@ TEST_F(Strip, IsAPngOfTheSizeOfItsTiles) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 1);  // no temporary file stays
 }
 
-// For a viewer that is to look from the same place.
+// A viewer uses this to look from the same place.
 TEST_F(Strip, TellsFromWhereEachTileIsSeenAndWhereItIs) {
   const Result<StripDone> done = render_strip(input(), path("a.png"));
   ASSERT_TRUE(done.ok()) << to_line(done.issue());
