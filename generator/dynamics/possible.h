@@ -26,6 +26,6 @@ struct BalancePlan {
 // ground cannot bear the motion, it comes nearer to standing (retreat.h). A motion that is possible stays as it is, bit
 // by bit.
 BalancePlan make_possible(const Character& character, const DynamicFigure& figure, std::span<const double> easy,
-                          const ContactPlan& plan, Motion& motion);
+                          const ContactPlan& plan, int ticks_per_frame, Motion& motion);
 
 }  // namespace contort
