@@ -181,11 +181,25 @@ double even_for_s(const RuleInput& in, const GaitParams& params, double lasts_s,
   return is_plain && is_even ? half_s : 0.0;
 }
 
+// The greatest speed for whose start and stop there is time (GaitTiming). Walks that need it may hurry.
+double speed_in_time_m_s(const GaitParams& params, double lasts_s) {
+  constexpr double kHurries_m_s2 = 1.5;
+  const double moving_s = std::max(lasts_s - params.cycle_s, 0.5 * lasts_s);
+  const double acceleration_m_s2 = params.trot ? params.acceleration_m_s2 : kHurries_m_s2;
+  return 0.5 * acceleration_m_s2 * moving_s;
+}
+
 GaitParams params_at(const RuleInput& in, ParamsFor params_for, const Pace& pace) {
-  GaitParams params = params_for(in.legs, in.params[1], heading_rad(in), pace);
-  params.lead = static_cast<int>(in.params[0]);
-  if (in.has_mass) spare_strength(params);
-  return params;
+  const auto at_speed = [&](double speed_m_s) {
+    GaitParams params = params_for(in.legs, speed_m_s, heading_rad(in), pace);
+    params.lead = static_cast<int>(in.params[0]);
+    if (in.has_mass) spare_strength(in.legs, params);
+    return params;
+  };
+  const GaitParams params = at_speed(in.params[1]);
+  if (!in.has_mass) return params;
+  const double most_m_s = speed_in_time_m_s(params, in.time.left_s);
+  return params.speed_m_s > most_m_s ? at_speed(in.params[1] * most_m_s / params.speed_m_s) : params;
 }
 
 // The turn to the target, from where the figure faces now; 0 for a point above or below it.
@@ -197,9 +211,9 @@ double turn_to_target_rad(const RuleInput& in) {
   return is_above ? 0.0 : azimuth_rad(in.stands_at, target_m);
 }
 
-// `params_at(pace)` gives the parameters at a share of what is asked for.
+// `params_at(pace)` gives the parameters at a share of what is asked for, which is `wanted_m_s`.
 template <class ParamsAt>
-void begin_gait(const RuleInput& in, ParamsAt params_at, Posture& posture) {
+void begin_gait(const RuleInput& in, double wanted_m_s, ParamsAt params_at, Posture& posture) {
   WholeBody& body = in.body;
   begin_course(in);
   const double lasts_s = in.time.left_s, step_s = in.time.duration_s / in.time.takes_s * in.time.frame_s;
@@ -229,14 +243,15 @@ void begin_gait(const RuleInput& in, ParamsAt params_at, Posture& posture) {
   const GaitTiming timing(body.gait_params, in.legs, lasts_s);
   // On the spot it stands when it has turned, and the speed of its steps was not asked for.
   const bool stays = body.gait_params.speed_m_s == 0.0;
-  body.is_slower = body.pace.speed < (stays ? 1e-9 : 1.0) || std::fabs(timing.turn_rad() - body.gait_params.turn_rad) > 1e-9;
+  const bool is_slower = stays ? body.pace.speed < 1e-9 : body.gait_params.speed_m_s < wanted_m_s;
+  body.is_slower = is_slower || std::fabs(timing.turn_rad() - body.gait_params.turn_rad) > 1e-9;
   body.lasts_s = stays ? std::min(lasts_s, timing.turn_s() + 1.5 * body.gait_params.cycle_s) : lasts_s;
 }
 
 template <class ParamsAt>
-void go(const RuleInput& in, ParamsAt params_at, Posture& posture) {
+void go(const RuleInput& in, double wanted_m_s, ParamsAt params_at, Posture& posture) {
   WholeBody& body = in.body;
-  if (body.begun < 0 || (is_root(in) && body.begun != in.took_over)) begin_gait(in, params_at, posture);
+  if (body.begun < 0 || (is_root(in) && body.begun != in.took_over)) begin_gait(in, wanted_m_s, params_at, posture);
   follow(in, posture, [&](Gait& gait) {
     return body.pace.speed > 0.0 ? gait.at(body.gait_params, in.time.since_s, body.lasts_s) : gait.stand(0.0);
   });
@@ -306,13 +321,13 @@ double squat_share(double progress) { return 0.5 - 0.5 * det::cos(2.0 * kPi * pr
 std::vector<ParamDef> walk_params(const Character&, const Part&) { return params_of_gait(3.0, 1.2); }
 bool walk_supports(const Character& character, const Part& part) { return is_root_with_legs(character, part); }
 void walk_rule(const RuleInput& in, Posture& posture) {
-  go(in, [&](const Pace& pace) { return params_at(in, contort::walk_params, pace); }, posture);
+  go(in, in.params[1], [&](const Pace& pace) { return params_at(in, contort::walk_params, pace); }, posture);
 }
 
 std::vector<ParamDef> run_params(const Character&, const Part&) { return params_of_gait(8.0, 3.0); }
 bool run_supports(const Character& character, const Part& part) { return is_root_with_legs(character, part); }
 void run_rule(const RuleInput& in, Posture& posture) {
-  go(in, [&](const Pace& pace) { return params_at(in, contort::run_params, pace); }, posture);
+  go(in, in.params[1], [&](const Pace& pace) { return params_at(in, contort::run_params, pace); }, posture);
 }
 
 std::vector<ParamDef> turn_params(const Character&, const Part&) {
@@ -330,7 +345,7 @@ bool turn_supports(const Character& character, const Part& part) { return is_roo
 void turn_rule(const RuleInput& in, Posture& posture) {
   const bool begins = in.body.begun < 0 || (is_root(in) && in.body.begun != in.took_over);
   const double turn_rad = begins ? turn_to_target_rad(in) : 0.0;
-  go(in, [&](const Pace& pace) { return contort::turn_params(in.legs, turn_rad, pace.speed); }, posture);
+  go(in, 0.0, [&](const Pace& pace) { return contort::turn_params(in.legs, turn_rad, pace.speed); }, posture);
 }
 
 std::vector<ParamDef> crouch_params(const Character&, const Part&) { return params_of_bend(); }

@@ -13,6 +13,7 @@ namespace {
 constexpr double kCornerNear_m = 0.02;
 constexpr double kGives_m = 0.02;   // of toes and heels: a figure without toe joints rolls over the tips of its feet
 constexpr double kSlide_m_s = 0.1;  // feet of recorded motion do slide
+constexpr double kTouches_s = 0.15;
 constexpr double kRise_m_s = 0.03;  // but one that rises has been lifted: to hold it would fight its own leg
 
 struct CornerPlace {
@@ -65,7 +66,22 @@ ContactPlan::ContactPlan(const Character& character, const DynamicFigure& figure
       for (int k = 0; k < 4; ++k) highest_m = std::max(highest_m, places[at(f * per_frame + 4 * s + k)].gap_m);
       bearings_[index(f, s)].depth = highest_m > kGives_m ? kGives_m / highest_m : 1.0;
     }
+  for (int s = 0; s < sole_count_; ++s) drop_touches(s);
   count_airborne();
+}
+
+// A foot on its way that touches the ground with an edge for a moment, while another foot stands, bears nothing.
+void ContactPlan::drop_touches(int sole) {
+  for (int f = 0, end = 0; f < frame_count_; f = end + 1) {
+    bool is_flat = false, others_stand = true;
+    for (end = f; end < frame_count_ && bearing(end, sole).corners != 0; ++end) {
+      is_flat = is_flat || bearing(end, sole).corners == kAllCorners;
+      others_stand = others_stand && standing(end) != (1U << sole);
+    }
+    const bool is_passing = f > 0 && end < frame_count_ && end - f < kTouches_s * rate_hz_;
+    if (!is_passing || is_flat || !others_stand) continue;
+    for (int g = f; g < end; ++g) bearings_[index(g, sole)].corners = 0;
+  }
 }
 
 std::uint8_t ContactPlan::standing(int frame) const {

@@ -38,6 +38,7 @@ class ContactPlan {
 
  private:
   std::size_t index(int frame, int sole) const { return static_cast<std::size_t>(frame * sole_count_ + sole); }
+  void drop_touches(int sole);
   void count_airborne();
   SoleMotion slope(int frame, int sole) const;
   SoleMotion bend(int frame, int sole) const;

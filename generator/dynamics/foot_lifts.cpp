@@ -29,7 +29,7 @@ void add_lifts(const ContactPlan& plan, int sole, std::vector<FootLift>& lifts) 
     if (plan.airborne(f, sole) == 0) continue;
     while (last + 1 < frames && plan.airborne(last + 1, sole) != 0) ++last;
     const bool leaves = f > 0, lands = last + 1 < frames;
-    const Rigid& from = plan.sole(leaves ? f - 1 : lands ? last + 1 : f, sole);
+    const Rigid& from = plan.sole(leaves ? f - 1 : f, sole);
     const Rigid& to = lands ? plan.sole(last + 1, sole) : from;
     if (!is_step(from, to)) lifts.push_back({sole, f, last, from, to});
   }

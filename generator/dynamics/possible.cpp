@@ -61,8 +61,14 @@ std::vector<int> joints_down_to_feet(const Character& character, std::span<const
 
 class PossibleTarget {
  public:
-  PossibleTarget(const Character& character, const DynamicFigure& figure, const ContactPlan& plan, Motion& motion)
-      : character_(character), figure_(figure), body_(Multibody::of(character)), plan_(plan), motion_(motion) {
+  PossibleTarget(const Character& character, const DynamicFigure& figure, const ContactPlan& plan, double missed,
+                 Motion& motion)
+      : character_(character),
+        figure_(figure),
+        missed_(missed),
+        body_(Multibody::of(character)),
+        plan_(plan),
+        motion_(motion) {
     state_ = moving_start(body_, TargetMotion(body_, motion));
     acceleration_.assign(state_.velocity.size(), 0.0);
     forces_ = acceleration_;
@@ -75,18 +81,26 @@ class PossibleTarget {
     soften();
     settle();
     for (int again = 0; again < kRetreats && retreat(); ++again) settle();
-    re_aim(character_, legs_, motion_);
+    re_aim(character_, legs_, missed_, motion_);
     measure();
     return balance();
   }
 
  private:
+  // Passes that lead farther away from what the ground can hold are taken back: a small shift does what the system
+  // says, but a figure that would have to go far has other legs and moments there.
   void settle() {
+    const Motion given = motion_;
+    double given_N_m = 0.0;
     for (int pass = 0; pass < kPasses; ++pass) {
       measure();
       if (!find_shift()) return;
+      if (pass == 0) given_N_m = asked_N_m_;
       move();
     }
+    measure();
+    if (!find_shift() || asked_N_m_ <= given_N_m) return;
+    motion_.root = given.root, motion_.coords = given.coords;
     measure();
   }
 
@@ -239,8 +253,10 @@ class PossibleTarget {
   bool find_shift() {
     std::vector<ShiftRow> rows;
     bool any = false;
+    asked_N_m_ = 0.0;
     for (int f = 0; f < motion_.frame_count; ++f) {
       rows.push_back(row_of(f));
+      asked_N_m_ += length(rows.back().ask);
       any = any || length(rows.back().ask) > kUnmoved_m * mass() * kGravity_m_s2;
     }
     if (any) solve_shift(rows, pendulum_rate(0), pendulum_rate(rows.size() - 1), shift_m_);
@@ -349,6 +365,7 @@ class PossibleTarget {
 
   const Character& character_;
   const DynamicFigure& figure_;
+  const double missed_;
   const Multibody body_;
   const ContactPlan& plan_;
   Motion& motion_;
@@ -359,6 +376,7 @@ class PossibleTarget {
   FigureState state_;
   std::vector<double> acceleration_, forces_, missing_m_;
   std::vector<Need> needs_;
+  double asked_N_m_ = 0.0;  // the sum of all frames' moments that a shift is to remove
   std::vector<Vec3> speeds_, shift_m_, corners_;
   LegFit legs_fit_{character_, figure_, legs_};
   Retreat retreat_{character_, plan_, legs_, motion_};
@@ -369,9 +387,10 @@ class PossibleTarget {
 }  // namespace
 
 BalancePlan make_possible(const Character& character, const DynamicFigure& figure, std::span<const double> easy,
-                          const ContactPlan& plan, Motion& motion) {
+                          const ContactPlan& plan, int ticks_per_frame, Motion& motion) {
   const bool changed = soften_joints(character, find_legs(character), easy, motion);
-  return PossibleTarget(character, figure, plan, motion).run(changed);
+  const double missed = missed_of_bend(ticks_per_frame);
+  return PossibleTarget(character, figure, plan, missed, motion).run(changed);
 }
 
 }  // namespace contort

@@ -25,6 +25,6 @@ struct BalancePlan {
 // Moves root and legs of a motion. The figure counts without its loads, which targets ignore. If legs or ground cannot
 // bear the motion, it comes nearer to standing (retreat.h). A possible motion stays unchanged, bit by bit.
 BalancePlan make_possible(const Character& character, const DynamicFigure& figure, std::span<const double> easy,
-                          const ContactPlan& plan, Motion& motion);
+                          const ContactPlan& plan, int ticks_per_frame, Motion& motion);
 
 }  // namespace contort

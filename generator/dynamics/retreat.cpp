@@ -124,11 +124,12 @@ std::uint8_t Retreat::lifted(int frame) const {
 
 namespace {
 
-// Along the ground from place to place, as high as planned but not higher than a foot must be to pass over it.
+// Along the ground from place to place, as high as planned but not higher than a foot must be to pass over it: it rises
+// and comes down gently, over all of the way.
 Rigid lowest(const Rigid& from, const Rigid& to, double share, const Rigid& planned) {
-  const double way = minimum_jerk(share);
+  const double way = minimum_jerk(share), up = 4.0 * share * (1.0 - share);
   Rigid low{slerp_short(from.q, to.q, way), from.p_m + way * (to.p_m - from.p_m)};
-  low.p_m.y += std::clamp(planned.p_m.y - low.p_m.y, 0.0, kLowest_m);
+  low.p_m.y += std::clamp(planned.p_m.y - low.p_m.y, 0.0, kLowest_m * up * up);
   return low;
 }
 

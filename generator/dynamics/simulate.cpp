@@ -237,7 +237,7 @@ void simulate(const Character& character, const DynamicsSetup& setup, const Envi
   soften_legs(character, legs, environment, setup.easy, motion);
   keep_enough_feet(character, legs, setup.figure, environment, motion);
   ContactPlan plan(character, setup.figure, environment, motion);
-  const BalancePlan balance = make_possible(character, setup.figure, setup.easy, plan, motion);
+  const BalancePlan balance = make_possible(character, setup.figure, setup.easy, plan, setup.ticks_per_frame, motion);
   plan.move_airborne(character, setup.figure, motion);
   Simulation(character, setup, environment, plan, balance, scratch, motion).run();
 }

@@ -32,10 +32,8 @@ double spring(double stiffness_per_s, double off, double off_per_s) {
   return 2.0 * stiffness_per_s * off_per_s + stiffness_per_s * stiffness_per_s * off;
 }
 
-// A figure that takes a target's accelerations tick by tick, on it from the start, does not go along its cubics:
-// accelerations are blended evenly between frames. With n ticks a frame its poses differ by (1 - 1 / n^2) / 6 of a
-// frame's second difference: the present acceleration times this. One that were drawn back to the cubics would arrive
-// beside its target.
+// The acceleration times this is what a figure misses of its target (missed_of_bend). One that were drawn back to the
+// cubics would arrive beside its target.
 double missed_s2(double tick_s, double rate_hz) {
   const double frame_s = 1.0 / rate_hz;
   return (frame_s * frame_s - tick_s * tick_s) / 6.0;
@@ -134,6 +132,8 @@ void track_joint(const Link& link, const TargetMotion& target, double then, doub
 }
 
 }  // namespace
+
+double missed_of_bend(int ticks_per_frame) { return (1.0 - 1.0 / (ticks_per_frame * ticks_per_frame)) / 6.0; }
 
 FigureState moving_start(const Multibody& body, const TargetMotion& target, double tick_s) {
   FigureState state;

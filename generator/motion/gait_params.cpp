@@ -203,9 +203,11 @@ GaitParams run_params(std::span<const Leg> legs, double speed_m_s, double headin
   return params;
 }
 
-void spare_strength(GaitParams& params) {
+// A root that starts or stops does not fly as a falling body does: runners on two legs keep a foot on the ground.
+void spare_strength(std::span<const Leg> legs, GaitParams& params) {
   const bool runs = params.duty < 0.5;
-  params.acceleration_m_s2 = runs ? 1.5 : 0.9;
+  params.acceleration_m_s2 = runs && legs.size() > 2 ? 1.5 : 0.9;
+  if (runs && legs.size() <= 2) params.duty = 0.6, params.bounce_m *= 0.3;
   params.leads = 0.5;
   params.rise = std::max(params.rise, 0.5), params.fall = 1.0 - params.rise;
 }

@@ -51,7 +51,7 @@ GaitParams run_params(std::span<const Leg> legs, double speed_m_s, double headin
 
 // Changes a gait to one that strength and balance allow: it starts and stops slowly, with feet behind and ahead of the
 // hips meanwhile, and feet in the air get faster and slower over all of their way.
-void spare_strength(GaitParams& params);
+void spare_strength(std::span<const Leg> legs, GaitParams& params);
 
 // Returns the gait of steps on the spot while the body turns, to the left if `turn_rad` > 0. `pace`, in (0, 1], is a
 // fraction of the usual cadence.

@@ -7,6 +7,7 @@
 
 #include "generator/dynamics/soft_height.h"
 #include "generator/dynamics/support_hull.h"
+#include "generator/execute.h"
 #include "generator/generate.h"
 #include "model/motion/kinematics.h"
 #include "tests/generator/scenes_of_one.h"
@@ -41,7 +42,8 @@ struct Made {
     original = generate(kinematic);
     motion = original;
     plan = ContactPlan(*stage.character, stage.dynamics->figure, stage.environment, motion);
-    balance = make_possible(*stage.character, stage.dynamics->figure, stage.dynamics->easy, plan, motion);
+    balance = make_possible(*stage.character, stage.dynamics->figure, stage.dynamics->easy, plan,
+                            stage.dynamics->ticks_per_frame, motion);
   }
 
   // The error of soles that carry weight, or of soles in the air.
@@ -94,7 +96,8 @@ TEST(Possible, AWalkSwaysOverTheStandingFootAndSolesStayWhereTheyAre) {
 TEST(Possible, TheZeroMomentPointOfAWalkStaysUnderTheFeet) {
   const Made made(walking("quadruped", 0.6, Mode::dynamic));
   Motion again = made.motion;
-  make_possible(*made.stage.character, made.stage.dynamics->figure, made.stage.dynamics->easy, made.plan, again);
+  make_possible(*made.stage.character, made.stage.dynamics->figure, made.stage.dynamics->easy, made.plan,
+                made.stage.dynamics->ticks_per_frame, again);
   for (std::size_t f = 0; f < again.root.size(); ++f)
     EXPECT_LT(length(again.root[f].p_m - made.motion.root[f].p_m), 2e-3) << f;
 }
@@ -126,6 +129,23 @@ TEST(Possible, DynamicWalksStayUpAndNearTheirTargets) {
       EXPECT_LT(walk.farthest_m, 0.05) << name << " " << speed_m_s;
       EXPECT_LT(walk.farthest_deg, 5.0) << name << " " << speed_m_s;
     }
+}
+
+// A start and a stop for 3 m/s take longer than a second: with less time the figure jogs, on a foot at any time.
+TEST(Possible, ARunOnAShortWayIsOnlyAsFastAsItsStartAndStopAllow) {
+  for (const char* name : {"human", "mech"}) {
+    Spec spec;
+    spec.character.name = name;
+    spec.sequences = {sequence({use("run", "waist", 0, 90, {{"speed_m_s", 3.0}})})};
+    spec.hold_frames = 30;
+    spec.dynamics.mode = Mode::dynamic;
+    const Followed run = followed(spec);
+    EXPECT_TRUE(run.stood) << name;
+    EXPECT_LT(run.farthest_m, 0.03) << name;
+    const Motion motion = generate(built_stage(spec));
+    EXPECT_GT(motion.root.back().p_m.z - motion.root[0].p_m.z, 0.05) << name;
+    EXPECT_FALSE(intent_of(built_stage(spec)).unmet.empty()) << name;
+  }
 }
 
 // Both feet are lifted in the air by a pose: no plan can hold that, so the figure sits down.

@@ -1,0 +1,65 @@
+// Single actions of figures with mass, as an audit draws them, without a finding.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "generator/dynamics/contact_plan.h"
+#include "generator/dynamics/foot_lifts.h"
+#include "tests/generator/scenes_of_one.h"
+#include "tests/stage_evaluator.h"
+
+namespace contort {
+namespace {
+
+using fixtures::sequence;
+using fixtures::use;
+
+using Parts = std::map<std::string, std::string>;  // slot -> part
+
+Stage stage_with_mass(const char* character, const ActionUse& action, const Parts& parts = {}) {
+  Spec spec;
+  spec.character.name = character;
+  spec.character.parts = parts;
+  spec.hold_frames = 30;
+  spec.dynamics.mode = Mode::tracking;
+  spec.sequences = {sequence({action})};
+  const Result<Stage> stage = build_stage(spec, stock_library());
+  if (!stage) throw std::logic_error(to_line(stage.issue()));
+  return *stage;
+}
+
+std::vector<Finding> found_in(const Stage& stage) {
+  StageEvaluator evaluator;
+  return evaluator.run(stage).findings;
+}
+
+ActionUse blow(double azimuth_deg, double strength_deg, int frames) {
+  return use("hit_reaction", "leg_left", 0, frames, {{"azimuth_deg", azimuth_deg}, {"strength_deg", strength_deg}});
+}
+
+TEST(SingleActions, ALegThatIsStruckAsksNoMoreOfTheOtherThanItsStrength) {
+  EXPECT_TRUE(found_in(stage_with_mass("mech", blow(75.0, 15.0, 72))).empty());
+  EXPECT_TRUE(found_in(stage_with_mass("mech", blow(25.0, 43.0, 65), {{"leg_left", "mech_leg_reverse"}})).empty());
+}
+
+// It leaves the ground in the first frame, and its edge touches the ground on the way.
+TEST(SingleActions, AStruckFootIsLiftedOnceFromWhereItStood) {
+  const Stage stage = stage_with_mass("mech", blow(25.0, 43.0, 65), {{"leg_left", "mech_leg_reverse"}});
+  Stage kinematic = stage;
+  kinematic.dynamics = nullptr;
+  const Motion motion = generate(kinematic);
+  const ContactPlan plan(*stage.character, stage.dynamics->figure, stage.environment, motion);
+  const std::vector<FootLift> lifts = foot_lifts(plan, 2);
+  ASSERT_EQ(lifts.size(), 1U);
+  EXPECT_LT(length(lifts[0].to.p_m - lifts[0].from.p_m), 0.01);
+}
+
+// Its balls get slower while it aims: a figure that follows misses a share of that in each of them.
+TEST(SingleActions, ATailOfBallsPointsAtItsTargetWhileItSlowsDown) {
+  ActionUse aim = use("aim", "tail", 0, 40, {{"point", std::string("tip")}, {"target_m", Vec3(-2.1, 1.1, -3.9)}});
+  aim.blend_in_frames = -1;
+  EXPECT_TRUE(found_in(stage_with_mass("quadruped", aim)).empty());
+}
+
+}  // namespace
+}  // namespace contort
