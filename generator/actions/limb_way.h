@@ -9,6 +9,9 @@ namespace contort {
 // Returns true if bodies have room at seven stops on the blend of the limb from in.from to the posture.
 bool has_way(const RuleInput& in, Posture& posture);
 
+// Chooses the detour of go_round() for this posture. False if none leaves room all the way.
+bool find_way(const RuleInput& in, Posture& posture);
+
 // Takes the limb round bodies that are on its way: when the action takes the part, it chooses the least detour that is
 // free, or else the one with the most room, and in each frame it raises the first joint by what is left of it. `posture`
 // is what the action wants.
