@@ -99,5 +99,16 @@ TEST(LegHandover, ALegThatIsTakenInTheMiddleOfABlowLosesItsSpeedSmoothly) {
       }
 }
 
+// A trunk that is hit in the first frame after a course moves the legs that it carries, not their feet.
+TEST(LegHandover, FeetStayWhereACourseHasPutThemWhileATrunkIsHit) {
+  Spec spec;
+  spec.character.name = "quadruped";
+  spec.sequences = {sequence({use("run", "hips", 0, 30, {})}),
+                    sequence({use("hit_reaction", "trunk", 0, 30, {{"azimuth_deg", 120.0}})})};
+  const Result<Stage> stage = build_stage(spec, stock_library());
+  ASSERT_TRUE(stage.ok());
+  EXPECT_TRUE(StageEvaluator().run(*stage).findings.empty());
+}
+
 }  // namespace
 }  // namespace contort
