@@ -110,5 +110,17 @@ TEST(LegHandover, FeetStayWhereACourseHasPutThemWhileATrunkIsHit) {
   EXPECT_TRUE(StageEvaluator().run(*stage).findings.empty());
 }
 
+// A bend that comes in and fades while it bends makes these ways at once.
+TEST(LegHandover, BendsAreOnlyAsDeepAsLegsCanFollowWhileTheyComeInAndFade) {
+  Spec spec;
+  spec.character.name = "mech";
+  ActionUse squat = course("squat", 0, 9, {}, {10, 1});
+  squat.speed = 0.7;
+  spec.sequences = {sequence({squat})};
+  const Result<Stage> stage = build_stage(spec, stock_library());
+  ASSERT_TRUE(stage.ok());
+  EXPECT_TRUE(StageEvaluator().run(*stage).findings.empty());
+}
+
 }  // namespace
 }  // namespace contort
