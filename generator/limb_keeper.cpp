@@ -152,10 +152,22 @@ void LimbKeeper::shift(const Limb& limb, Shift shift) {
 
 void LimbKeeper::plant(const Limb& limb) {
   const StandingFeet& feet = s_.rules.feet();
-  for (const int leg : limb.legs)
-    if (limb.is_its_own(stage_.legs[at(leg)]) && feet.is_planted(at(leg)) &&
-        feet.plant(at(leg), s_.rules.world(), s_.postures.shown.coords))
+  for (const int leg : limb.legs) {
+    if (!limb.is_its_own(stage_.legs[at(leg)])) continue;
+    if (feet.is_planted(at(leg)) ? feet.plant(at(leg), s_.rules.world(), s_.postures.shown.coords)
+                                 : stay_after_course(leg))
       shift(limb, Shift::planted);
+  }
+}
+
+// In the first frame after a course of legs, the trunk that carries a leg may go on, or be hit: the foot stays where the
+// course has put it.
+bool LimbKeeper::stay_after_course(int leg) {
+  const StandingFeet& feet = s_.rules.feet();
+  const bool is_carried = carrier_of(*stage_.character, stage_.legs[at(leg)].part) != 0;
+  if (!is_carried || feet.moves(at(leg)) || !feet.rests_at(at(leg))) return false;
+  feet.put_to_rest(at(leg), s_.rules.world(), s_.postures.shown.coords);
+  return true;
 }
 
 void LimbKeeper::place(const Leg& leg, const Posture& posture) {

@@ -38,6 +38,7 @@ class LimbKeeper {
   const Limb& limb_at(std::size_t p) const { return s_.rules.room().limb_of(p); }
   void shift(const Limb& limb, Shift shift);
   void plant(const Limb& limb);
+  bool stay_after_course(int leg);
   void place(const Leg& leg, const Posture& posture);
   bool land(const Playback& playback, const Limb& limb);
   bool land(const Playback& playback, const Limb& limb, double gap_m);

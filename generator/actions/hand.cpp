@@ -171,6 +171,27 @@ double over_plane_m(const RuleInput& in, const Vec3& point_m, const Vec3& normal
   return least_m;
 }
 
+struct Laid {
+  double missing_m = 0.0;  // from the grip to its place
+  double off_m = 0.0;      // by which that place was moved off the surface
+};
+
+// Moves the hand's place off the surface by as much as hand and forearm need.
+Laid lay_on_plane(const RuleInput& in, const Vec3& surface_m, HandPlace hand_at, Posture& posture) {
+  constexpr double kClear_m = 0.002;
+  constexpr int kPasses = 3;  // a forearm comes nearer or farther as the grip is moved
+  Laid laid{bring_palm_to(in, hand_at, posture)};
+  if (in.part.reach.empty()) return laid;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const double lacks_m = kClear_m - over_plane_m(in, surface_m, -hand_at.palm);
+    if (lacks_m <= 0.0) break;
+    laid.off_m += lacks_m;
+    hand_at.point_m -= lacks_m * hand_at.palm;
+    laid.missing_m = bring_palm_to(in, hand_at, posture);
+  }
+  return laid;
+}
+
 }  // namespace
 
 double bring_grip_to(const RuleInput& in, const Vec3& point_world_m, Posture& posture) {
@@ -182,18 +203,14 @@ double bring_grip_to(const RuleInput& in, const Vec3& point_world_m, Posture& po
 }
 
 double lay_hand_on(const RuleInput& in, const Vec3& point_m, const Vec3& normal, double gap_m, Posture& posture) {
-  constexpr double kClear_m = 0.002;
-  constexpr int kPasses = 3;  // a forearm comes nearer or farther as the grip is moved
-  HandPlace hand_at{point_m + gap_m * normal, -normal};
-  double missing_m = bring_palm_to(in, hand_at, posture);
-  if (in.part.reach.empty()) return missing_m;
-  for (int pass = 0; pass < kPasses; ++pass) {
-    const double lacks_m = kClear_m - over_plane_m(in, point_m, normal);
-    if (lacks_m <= 0.0) break;
-    hand_at.point_m += lacks_m * normal;
-    missing_m = bring_palm_to(in, hand_at, posture);
-  }
-  return missing_m;
+  const HandPlace hand_at{point_m + gap_m * normal, -normal};
+  const bool begins = in.body.begun != in.took_over;
+  const Laid laid = lay_on_plane(in, point_m, hand_at, posture);
+  if (!begins || laid.off_m <= 0.0) return laid.missing_m;
+  // The swivel was chosen for a hand in the surface: it is chosen again for one that is on it.
+  in.body.begun = -1;
+  bring_palm_to(in, {hand_at.point_m + laid.off_m * normal, -normal}, posture);
+  return lay_on_plane(in, point_m, hand_at, posture).missing_m;
 }
 
 }  // namespace contort

@@ -84,19 +84,20 @@ double room_on_way_m(const RuleInput& in, const Vec3& by_rad, double matters_m, 
   return least_m;
 }
 
-Vec3 choose_detour(const RuleInput& in, Posture& posture) {
+}  // namespace
+
+bool find_way(const RuleInput& in, Posture& posture) {
   constexpr double kMore_m = 1e-4;  // rounding must not choose
-  Vec3 best(0.0);
+  WholeBody& body = in.body;
+  body.way_chosen_in = in.took_over, body.detour_rad = Vec3(0.0);
   double most_m = -1e30;
   for (const Vec3& by_rad : detours_of(in.part.side)) {
     const double room = room_on_way_m(in, by_rad, most_m, posture);
-    if (room > most_m + kMore_m) most_m = room, best = by_rad;
-    if (most_m >= -kTooNear_m) break;
+    if (room > most_m + kMore_m) most_m = room, body.detour_rad = by_rad;
+    if (most_m >= -kTooNear_m) return true;
   }
-  return best;
+  return false;
 }
-
-}  // namespace
 
 bool has_way(const RuleInput& in, Posture& posture) {
   return room_on_way_m(in, Vec3(0.0), -kTooNear_m, posture) >= -kTooNear_m;
@@ -104,10 +105,7 @@ bool has_way(const RuleInput& in, Posture& posture) {
 
 void go_round(const RuleInput& in, Posture& posture) {
   WholeBody& body = in.body;
-  if (body.way_chosen_in != in.took_over) {
-    body.way_chosen_in = in.took_over;
-    body.detour_rad = choose_detour(in, posture);
-  }
+  if (body.way_chosen_in != in.took_over) find_way(in, posture);
   if (in.came_in < 1.0 && body.detour_rad != Vec3(0.0))
     raise(in, left_of_detour(in.came_in) * body.detour_rad, posture);
 }

@@ -287,6 +287,23 @@ double peak_with_blends(const BendShape& shape, const ActionTime& time) {
   return std::max(shape.peak, most * time.takes_s / time.frame_s);
 }
 
+// The share of the deepest bend that standing legs can follow while it comes in and fades, too. Short bends, which are
+// fast, are tried in every frame.
+double depth_with_blends(const RuleInput& in, const BendShape& shape, Posture& posture) {
+  constexpr double kMostSamples = 40.0;
+  WholeBody& body = in.body;
+  const ActionTime& time = in.time;
+  if (!(time.takes_s > 0.0) || !begins_on_its_feet(in)) return 1.0;
+  const auto frame_at = [&](Gait& gait, const Pace& pace, double time_s) {
+    const double share = shape.share_at(std::min(1.0, (time.duration_s - time.left_s + time_s) / time.duration_s));
+    return with_blends(in, bent(in, gait, pace.speed * body.deepest_bend * share), time_s, time.comes_in_s);
+  };
+  const double step_s = time.duration_s / time.takes_s * time.frame_s;
+  const double frames = std::max(1.0, std::ceil(time.left_s / step_s / kMostSamples));  // from one sample to the next
+  const CourseTrial course{frame_at, time.left_s, frames * step_s, frames * time.frame_s, 0.0, 0.0};
+  return fitting_depth(in.character, in.room, body.gait, course, in.world, in.scratch, posture.coords);
+}
+
 void begin_bend(const RuleInput& in, const BendShape& shape, Posture& posture) {
   WholeBody& body = in.body;
   begin_course(in);
@@ -301,6 +318,7 @@ void begin_bend(const RuleInput& in, const BendShape& shape, Posture& posture) {
     body.is_slower = calm < body.deepest_bend;
     body.deepest_bend = std::min(body.deepest_bend, calm);
   }
+  body.deepest_bend *= depth_with_blends(in, shape, posture);
   body.lowest = frame_at(body.deepest_bend);
 }
 

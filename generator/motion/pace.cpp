@@ -127,4 +127,11 @@ Pace fitting_pace(const Character& character, LimbRoom& room, const Gait& begun,
   return {0.0, 0.0};
 }
 
+double fitting_depth(const Character& character, LimbRoom& room, const Gait& begun, const CourseTrial& course,
+                     std::span<const Rigid> world, const TrialSpace& scratch, std::span<double> row) {
+  Trial trial(character, room, course, world, scratch, row);
+  const auto* fits = std::ranges::find_if(kSpeeds, [&](double share) { return trial.fits(begun, {share, 1.0}); });
+  return fits != kSpeeds.end() ? *fits : 1.0;
+}
+
 }  // namespace contort

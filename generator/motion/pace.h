@@ -23,4 +23,9 @@ struct CourseTrial {
 Pace fitting_pace(const Character& character, LimbRoom& room, const Gait& begun, const CourseTrial& course,
                     std::span<const Rigid> world, const TrialSpace& scratch, std::span<double> row);
 
+// As fitting_pace(), for a bend: the share of its depth, as the speed of a pace, at which legs can follow it, or 1 if
+// they can at none. The roll of a pace is 1.
+double fitting_depth(const Character& character, LimbRoom& room, const Gait& begun, const CourseTrial& course,
+                     std::span<const Rigid> world, const TrialSpace& scratch, std::span<double> row);
+
 }  // namespace contort

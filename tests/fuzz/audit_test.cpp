@@ -179,5 +179,13 @@ TEST(Audit, ArmsThatTouchWallsDoNotEnterThem) {
   }
 }
 
+// Beside the hip there is no room for a hand at a near wall; farther in front there is.
+TEST(Audit, ArmsFindRoomToTouchNearWalls) {
+  BuiltInGenerator generator(stock_library());
+  AuditOptions options;
+  options.actions = {"touch"}, options.draws = 40, options.slots = {"arm_left"};
+  for (const AuditRow& row : audited(options, generator)) EXPECT_LE(row.unmet, row.draws / 8) << row.part;
+}
+
 }  // namespace
 }  // namespace contort

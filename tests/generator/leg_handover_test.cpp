@@ -99,5 +99,28 @@ TEST(LegHandover, ALegThatIsTakenInTheMiddleOfABlowLosesItsSpeedSmoothly) {
       }
 }
 
+// A trunk that is hit in the first frame after a course moves the legs that it carries, not their feet.
+TEST(LegHandover, FeetStayWhereACourseHasPutThemWhileATrunkIsHit) {
+  Spec spec;
+  spec.character.name = "quadruped";
+  spec.sequences = {sequence({use("run", "hips", 0, 30, {})}),
+                    sequence({use("hit_reaction", "trunk", 0, 30, {{"azimuth_deg", 120.0}})})};
+  const Result<Stage> stage = build_stage(spec, stock_library());
+  ASSERT_TRUE(stage.ok());
+  EXPECT_TRUE(StageEvaluator().run(*stage).findings.empty());
+}
+
+// A bend that comes in and fades while it bends makes these ways at once.
+TEST(LegHandover, BendsAreOnlyAsDeepAsLegsCanFollowWhileTheyComeInAndFade) {
+  Spec spec;
+  spec.character.name = "mech";
+  ActionUse squat = course("squat", 0, 9, {}, {10, 1});
+  squat.speed = 0.7;
+  spec.sequences = {sequence({squat})};
+  const Result<Stage> stage = build_stage(spec, stock_library());
+  ASSERT_TRUE(stage.ok());
+  EXPECT_TRUE(StageEvaluator().run(*stage).findings.empty());
+}
+
 }  // namespace
 }  // namespace contort
