@@ -107,6 +107,8 @@ struct WholeBody {
   std::array<Rigid, kMaxLegs> seen_soles{};   // places of the feet when it begins, in the world
   std::array<Rigid, kMaxLegs> first_soles{};  // places at which the course wants the feet when it begins
   double swivel_rad = 0.0;  // rotation of a limb about the line to its target, if the request leaves it open
+  Vec3 raised_by_m{0.0};     // offset from the easy place of a grip to the place where it has room to touch a wall
+  double touch_gap_m = 0.0;  // distance from that wall
   int way_chosen_in = -1;                     // frame in which the action took the part
   Vec3 detour_rad{0.0};                       // detour round bodies on the way to the target (limb_way.h)
   double wanted_swivel_rad = 0.0;             // swivel to which it turns while its target moves

@@ -14,6 +14,10 @@ struct FigureState {
   std::vector<double> velocity;  // see Multibody
 };
 
+// A figure that takes a target's accelerations tick by tick, on it from the start, does not go along its cubics:
+// accelerations are blended evenly between frames. Its poses differ by this share of a frame's second difference.
+double missed_of_bend(int ticks_per_frame);
+
 // The target's pose at frame 0, and its rates half a tick before, as for a figure that advance() has moved there.
 FigureState moving_start(const Multibody& body, const TargetMotion& target, double tick_s = 0.0);
 
