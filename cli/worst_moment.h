@@ -13,7 +13,7 @@ namespace contort::cli {
 
 struct WorstMoment {
   Finding finding;
-  std::string measured;          // "9000.0 deg/s, allowed 3000.0"; of a character's motion see measured_of
+  std::string measured;          // "9000.0 deg/s, allowed 3000.0"
   std::optional<double> time_s;  // of the clip; none for findings without a time
   int frame = -1;                // of the character's motion; -1 if the finding is not about it
 };
