@@ -14,7 +14,6 @@ constexpr double kShare = 0.8;       // of the limb's length
 constexpr double kStep_rad = 0.1;    // of an arc; 6 degrees look round
 constexpr double kLeastLever = 0.1;  // sine below which a limb lies along its axis
 constexpr int kConeCorners = 64;
-constexpr Vec3 kAllowedColor{0.04, 0.50, 0.09};
 constexpr Vec3 kBeyondColor{0.80, 0.03, 0.03};
 
 // Seen from both sides.
