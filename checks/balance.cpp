@@ -4,16 +4,13 @@
 #include <algorithm>
 
 #include "checks/check.h"
+#include "checks/fixed_limits.h"
 #include "checks/withstands.h"
 #include "model/core/index.h"
 
 namespace contort {
 
 namespace {
-
-constexpr double kTipping_m = -0.05;  // margin of a figure on an edge of its feet, at best
-constexpr double kAirborne_m = -0.1;  // margin of a figure off the ground
-constexpr double kFallen_m = -1.0;    // margin of a fallen figure, and the lowest of all margins
 
 double margin_of(const Stance& stance) {
   if (stance.footing == Footing::fallen) return kFallen_m;

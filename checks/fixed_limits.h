@@ -18,4 +18,9 @@ inline constexpr double kBack_rad = 3.0 * kRadPerDeg;  // greatest distance of a
 inline constexpr double kBack_m = 0.01;                // greatest distance of a prismatic joint from its target, once
                                                        // that time is over
 
+// Margins of `balance` where there is no zero moment point.
+inline constexpr double kTipping_m = -0.05;  // the figure is on an edge of its feet
+inline constexpr double kAirborne_m = -0.1;  // it is off the ground
+inline constexpr double kFallen_m = -1.0;    // it fell; no margin is lower
+
 }  // namespace contort

@@ -49,8 +49,9 @@ void judge_places(const ClipInput& in, const ClipFigure& figure, const AssetChan
   add_step_findings(
       "translation_pop", in.asset.nodes[static_cast<std::size_t>(channel.node)], "m", steps, allowed, in.settings,
       [&](std::size_t i) {
-        return "moves by " + fixed_text(apart(i, i + 1), 3) + " m in one step (" + fixed_text(steps[i].speed_rad_s, 1) +
-               " m/s), where the motion around it explains " + fixed_text(allowed[i], 3) + " m";
+        return "moves by " + fixed_text(apart(i, i + 1), 3) + " m between two keys (" +
+               fixed_text(steps[i].speed_rad_s, 1) + " m/s); by the keys around it up to " +
+               fixed_text(allowed[i], 3) + " m would be expected";
       },
       out);
 }

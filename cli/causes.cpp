@@ -11,7 +11,9 @@
 #include "cli/outputs.h"
 #include "cli/print.h"
 #include "corpus/baseline.h"
+#include "fuzz/run_state.h"
 #include "model/core/json_fields.h"
+#include "renders/report.h"
 #include "renders/wording.h"
 
 namespace contort::cli {
@@ -101,7 +103,8 @@ std::string causes_text(std::span<const CauseRow> rows, const CausesText& about)
 std::string causes_json(std::span<const CauseRow> rows, const CausesText& about) {
   Json list = Json::array();
   for (const CauseRow& row : rows) list.push_back(row_json(row));
-  const Json out = {{"format", "contort.causes/1"}, {"cases", about.cases}, {"causes", list}};
+  Json out = {{"format", "contort.causes/1"}, {"cases", about.cases}, {"causes", list}};
+  if (about.unsettled > 0) out["unsettled"] = about.unsettled;
   return out.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -142,7 +145,7 @@ void run_causes(const CausesOptions& options, Context& context) {
   std::vector<Issue> damaged;
   const std::vector<RunRecord> runs = runs_of(*corpus, damaged);
   for (const Issue& issue : damaged) context.fail(issue);
-  CausesText about{.corpus = options.corpus, .sources = context.sources};
+  CausesText about{.corpus = options.corpus, .unsettled = unsettled_failures(*corpus), .sources = context.sources};
   for (const RunRecord& run : runs) about.cases += run.cases;
   const auto buckets = std::ssize(members);
   std::vector<CauseRow> rows = causes_of(std::move(members), runs);
@@ -151,6 +154,7 @@ void run_causes(const CausesOptions& options, Context& context) {
   if (options.json) return void(std::printf("%s\n", causes_json(rows, about).c_str()));
   std::printf("%s%s, %s\n", causes_text(rows, about).c_str(), counted(std::ssize(rows), "cause", "causes").c_str(),
               counted(buckets, "failure", "failures").c_str());
+  if (about.unsettled > 0) std::printf("%s\n", unsettled_text(about.unsettled).c_str());
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ struct CausesText {
   std::int64_t cases = 0;       // number of cases of the runs
   std::size_t most = 12;        // rows that are printed
   std::string corpus{};         // for the command that lists all causes
+  std::int64_t unsettled = 0;   // failures of stopped runs, which have no cause yet; for the JSON
   const Sources& sources;
 };
 

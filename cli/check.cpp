@@ -20,6 +20,7 @@
 #include "model/core/hash.h"
 #include "model/core/json_fields.h"
 #include "process/ended.h"
+#include "renders/measured_text.h"
 
 namespace contort::cli {
 
@@ -94,8 +95,13 @@ void check_spec(const std::string& file, const std::string& level, bool as_json,
     std::printf("%s\n", out.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
     return;
   }
-  for (std::size_t i = 0; i < at_worst.size(); ++i)
-    std::printf("%s\n", finding_line(evaluation.findings[i], made.motion.rate_hz, at_worst[i]).c_str());
+  for (std::size_t i = 0; i < at_worst.size(); ++i) {
+    const Finding& f = evaluation.findings[i];
+    const bool has_own_limit = !context.sources.generator.empty() && f.check == "reach_error";
+    const std::string value =
+        failed_text({f.check, f.subject, f.unit, f.worst_margin, has_own_limit}, made.character.get(), *settings);
+    std::printf("%s\n", finding_line(f, value, made.motion.rate_hz, at_worst[i]).c_str());
+  }
   for (const std::string& line : waiver_lines(*settings, evaluation.waivers)) std::printf("%s\n", line.c_str());
   for (const std::string& line : unmet_lines(made)) std::printf("%s\n", line.c_str());
   for (const std::string& line : overpowered_lines(made)) std::printf("%s\n", line.c_str());

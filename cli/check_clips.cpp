@@ -22,6 +22,7 @@
 #include "formats/detect/file_format.h"
 #include "guest/finished_file.h"
 #include "model/core/files.h"
+#include "renders/measured_text.h"
 
 namespace contort::cli {
 
@@ -124,6 +125,13 @@ void set_waived_apart(const CheckSettings& settings, ClipReport& report, Checked
   if (report.judged.limits) keep_open(settings, report.judged.limits->findings, itself, out);
 }
 
+void describe_motion_findings(const ClipJudging& with, ClipReport& report) {
+  const Character* character = report.made ? report.made->character.get() : nullptr;
+  for (const Finding& f : report.judged.motion_findings)
+    report.motion_texts.push_back(
+        failed_text({f.check, f.subject, f.unit, f.worst_margin}, character, with.limits.settings));
+}
+
 Result<Done> judge_on_character(ClipJudging& with, const Animation& animation, const AssetClip& clip,
                                 ClipReport& report) {
   if (!with.on.character) return Done{};
@@ -189,6 +197,7 @@ void check_file(const std::string& file, const ClipJudging& for_all, Checked& ou
     note_judged(clip, *animation, report.judged, with.on, with.options, with.limits.settings, out.touched);
     set_waived_apart(with.limits.settings, report, out);
     set_accepted_apart(with, report, out);
+    describe_motion_findings(with, report);
     if (!with.options.report.empty()) report.worst_pose = worst_pose(with.on, *animation, clip, report);
     report.made.reset();
     out.clips.push_back(std::move(report));
@@ -372,7 +381,7 @@ void check_clips(const ClipCheckOptions& options, Context& context) {
   context.exit_code = count_findings(checked.clips) > 0 ? kFindings : checked.clips.empty() ? kBadInput : kClean;
   std::stable_sort(checked.clips.begin(), options.all_clips ? checked.clips.end() : checked.clips.begin(), is_worse);
   if (const Result<Done> written =
-          write_clips_page({options, checked.clips, checked.unreadable, with.on.character, with.limits.settings}, context);
+          write_clips_page({options, checked.clips, checked.unreadable}, context);
       !written)
     context.fail(written.issue(), kInternal);
   if (!options.all_clips) return print_one(with, checked);

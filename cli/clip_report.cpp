@@ -7,6 +7,7 @@
 
 #include "cli/columns_report.h"
 #include "cli/judged_text.h"
+#include "cli/left_out_report.h"
 #include "cli/print.h"
 #include "model/core/index.h"
 #include "model/core/json_fields.h"
@@ -198,10 +199,6 @@ bool is_worse(const ClipReport& a, const ClipReport& b) {
 
 namespace {
 
-constexpr double kPlainTurn_rad = 1.0 * kRadPerDeg;  // left out: greater angles get a line of their own
-constexpr double kPlainOffset_m = 0.01;
-constexpr std::size_t kMostLines = 5;
-
 // The angle of a pop as text: ", 90.5 deg in one step".
 std::string step_text(const ClipFinding& f) {
   if (f.finding.check != "pop" || !std::isfinite(f.worst_speed_rad_s)) return "";
@@ -214,6 +211,11 @@ void print_speed_findings(const ClipSpeeds& speeds) {
                 printable(f.finding.subject).c_str(), decimal(f.worst_speed_rad_s * kDegPerRad, 1).c_str(),
                 decimal((f.worst_speed_rad_s + f.finding.worst_margin) * kDegPerRad, 1).c_str(),
                 decimal(f.worst_t0_s, 3).c_str(), decimal(f.worst_t1_s, 3).c_str(), step_text(f).c_str());
+  const auto is_pop = [](const ClipFinding& f) { return f.finding.check == "pop"; };
+  if (std::ranges::any_of(speeds.findings, is_pop))
+    std::printf("  A pop may be as fast as its limit, or 4 times as fast as the motion around it; a step that stands "
+                "alone may be at most %g deg, or %g deg if the joint stays there.\n",
+                kBlip_rad * kDegPerRad, kJump_rad * kDegPerRad);
 }
 
 // Text such as "0.500 s", or "0.467-0.500 s" for a step.
@@ -232,51 +234,12 @@ void print_key_findings(const std::vector<KeyFinding>& findings) {
 }
 
 void print_motion_findings(const ClipReport& clip) {
-  for (const Finding& f : clip.judged.motion_findings)
+  for (std::size_t i = 0; i < clip.judged.motion_findings.size(); ++i) {
+    const Finding& f = clip.judged.motion_findings[i];
     std::printf("  %s  %s  %s  frames %d-%d, worst %d (%s s)\n", f.check.c_str(), printable(f.subject).c_str(),
-                margin_text(f.worst_margin, f.unit).c_str(), f.first_frame, f.last_frame, f.worst_frame,
+                clip.motion_texts[i].c_str(), f.first_frame, f.last_frame, f.worst_frame,
                 decimal(clip.motion->time_s(f.worst_frame), 3).c_str());
-}
-
-// Prints the movements that joints left out and that are greater than `plain`, the greatest first: at most kMostLines
-// lines, and the number of the others.
-void print_left_out(std::vector<LeftOut> left_out, double LeftOut::*amount, double plain,
-                    const std::function<std::string(const LeftOut&)>& text) {
-  std::erase_if(left_out, [&](const LeftOut& l) { return !(l.*amount > plain); });
-  std::ranges::stable_sort(left_out, [&](const LeftOut& a, const LeftOut& b) { return a.*amount > b.*amount; });
-  for (std::size_t i = 0; i < std::min(left_out.size(), kMostLines); ++i)
-    std::printf("  left out: %s\n", text(left_out[i]).c_str());
-  if (left_out.size() > kMostLines)
-    std::printf("  left out: less of that at %zu more joints (--json lists them)\n", left_out.size() - kMostLines);
-}
-
-void print_conversion(const ClipMotion& motion) {
-  if (motion.columns > 0) return print_columns(motion);
-  print_left_out(motion.left_out, &LeftOut::turn_rad, kPlainTurn_rad, [](const LeftOut& l) {
-    return decimal(l.turn_rad * kDegPerRad, 1) + " deg of the turn of " + printable(l.node) + ", for which " +
-           printable(l.joint) + " has no axis (" + decimal(l.turn_s, 3) + " s)";
-  });
-  print_left_out(motion.left_out, &LeftOut::offset_m, kPlainOffset_m, [](const LeftOut& l) {
-    return decimal(l.offset_m, 3) + " m by which " + printable(l.node) + " leaves its place (" +
-           decimal(l.offset_s, 3) + " s)";
-  });
-  if (!motion.stray_nodes.empty())
-    std::printf("  left out: nodes that move and are no joint: %s\n", some_names(motion.stray_nodes).c_str());
-  if (!motion.joints_at_rest.empty())
-    std::printf("  at rest: joints without a node: %s\n", some_names(motion.joints_at_rest).c_str());
-}
-
-// Text such as "; left out 12.3 deg, 0.180 m, 3 nodes", or "".
-std::string left_out_text(const ClipMotion& motion) {
-  if (motion.columns > 0) return columns_text(motion);
-  double turn_rad = 0.0, offset_m = 0.0;
-  for (const LeftOut& l : motion.left_out)
-    turn_rad = std::max(turn_rad, l.turn_rad), offset_m = std::max(offset_m, l.offset_m);
-  std::string text;
-  if (turn_rad > kPlainTurn_rad) text += ", turns of up to " + decimal(turn_rad * kDegPerRad, 1) + " deg";
-  if (offset_m > kPlainOffset_m) text += ", offsets of up to " + decimal(offset_m, 3) + " m";
-  if (!motion.stray_nodes.empty()) text += ", " + std::to_string(motion.stray_nodes.size()) + " nodes that move";
-  return text.empty() ? "" : "; left out" + text.substr(1);
+  }
 }
 
 }  // namespace
@@ -300,6 +263,7 @@ ClipMotion motion_of_clip(const Asset& asset, const AssetClip& clip, const Conve
 
 void print_clip(const ClipReport& clip) {
   std::printf("clip %s: %s\n", printable(clip.judged.speeds.clip).c_str(), peak_text(clip.judged.speeds).c_str());
+  if (clip.motion && clip.motion->columns == 0) print_large_turns(*clip.motion);
   print_speed_findings(clip.judged.speeds);
   print_key_findings(clip.judged.clip_findings);
   print_motion_findings(clip);

@@ -56,6 +56,7 @@ struct ClipReport {
   int first_frame = 0;
   std::size_t similar_names = 0;     // number of nodes whose prefixes differ from the map's
   std::optional<Execution> made{};   // the motion on the character, until the worst pose is taken from it
+  std::vector<std::string> motion_texts{};  // failed_text() of each of judged.motion_findings
   StickFigure worst_pose{};          // of the deepest finding; only for a report
 };
 

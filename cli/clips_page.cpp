@@ -4,14 +4,12 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "checks/measured.h"
 #include "cli/input.h"
 #include "cli/print.h"
 #include "cli/worst_moment.h"
 #include "model/core/files.h"
 #include "model/core/own_folder.h"
 #include "renders/clips_html.h"
-#include "renders/measured_text.h"
 
 namespace contort::cli {
 
@@ -52,19 +50,11 @@ std::string command_of(const ClipCheckOptions& options, const Context& context, 
   return text;
 }
 
-std::string measured_in(const ClipsPageInput& in, const WorstMoment& worst) {
-  const Finding& finding = worst.finding;
-  if (worst.frame < 0 || !in.character) return worst.measured;
-  const std::optional<Measured> measured =
-      measured_of(*in.character, in.settings, finding.check, finding.subject, finding.worst_margin);
-  return measured ? measured_text(finding.check, finding.unit, *measured) : worst.measured;
-}
-
 ClipsPageRow row_of(const ClipsPageInput& in, const ClipReport& clip, const WorstMoment& worst, const Context& context) {
   ClipsPageRow row;
   row.file = clip.file, row.clip = clip.judged.speeds.clip;
   row.check = worst.finding.check, row.subject = worst.finding.subject;
-  row.measured = measured_in(in, worst);
+  row.measured = worst.measured;
   if (worst.time_s) row.when = decimal(*worst.time_s, 3) + " s";
   row.counts = "All findings: " + counts_of_checks(clip);
   row.figure = clip.worst_pose;

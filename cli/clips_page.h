@@ -1,15 +1,12 @@
 // The page of contort check --report: many clips, the worst first, each with the pose of its worst moment.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "checks/settings.h"
 #include "cli/check_clips.h"
 #include "cli/clip_report.h"
 #include "cli/commands.h"
-#include "model/character/character.h"
 
 namespace contort::cli {
 
@@ -17,8 +14,6 @@ struct ClipsPageInput {
   const ClipCheckOptions& options;
   const std::vector<ClipReport>& clips;
   const std::vector<Unreadable>& unreadable;
-  std::shared_ptr<const Character> character;  // null for none
-  const CheckSettings& settings;
 };
 
 // Code folder.other_files if the folder has files and no such page.

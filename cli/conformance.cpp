@@ -4,7 +4,9 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 
+#include "checks/measured.h"
 #include "corpus/evaluator.h"
 #include "fuzz/draw.h"
 #include "guest/guest_figure.h"
@@ -12,6 +14,7 @@
 #include "model/motion/kinematics.h"
 #include "process/clock.h"
 #include "process/ended.h"
+#include "renders/measured_text.h"
 #include "renders/wording.h"
 
 namespace contort::cli {
@@ -136,9 +139,9 @@ class Examination {
     examine_size(name, *execution.character, root);
     for (const Joint& joint : execution.character->joints().subspan(1))
       if (const double away = away_from_rest(joint, execution); away > kAtRest_rad)
-        return note(name + ": without actions " + joint.name + " is " + rounded_text(away * kDegPerRad) +
-                    " degrees from its rest pose; rotations are against the parent, x y z w, and include the rest "
-                    "rotation.");
+        return note(name + ": " + joint.name + " is at " + rounded_text(away * kDegPerRad) +
+                    " degrees although no action was requested. If you meant rest: rotations are relative to the parent "
+                    "(x y z w) and must include the rest rotation.");
   }
 
   static double away_from_rest(const Joint& joint, const Execution& execution) {
@@ -218,6 +221,7 @@ class Examination {
       frames += (*evaluation)->frame_count;
       for (const std::string& check : failing_checks(**evaluation)) ++failing[check];
       note_judged(**evaluation);
+      note_beyond(**evaluation, *evaluator_.execution().character);
       look_for_degrees(evaluator_.execution());
     }
     out_.frames_per_s = spent_s > 0.0 ? frames / spent_s : 0.0;
@@ -230,6 +234,41 @@ class Examination {
     for (const Finding& finding : evaluation.findings)
       if (std::ranges::find(names, finding.check) == names.end()) names.push_back(finding.check);
     return names;
+  }
+
+  // The joint that is farthest beyond its limit, in proportion.
+  struct Beyond {
+    std::string joint, unit;
+    Measured worst;
+    int motions = 0;  // that show a finding of it
+  };
+
+  void note_beyond(const Evaluation& evaluation, const Character& character) {
+    for (const char* check : {"angular_velocity", "joint_range"}) {
+      std::set<std::string> seen;
+      for (const Finding& f : evaluation.findings) {
+        const auto measured = f.check != check ? std::nullopt
+                                               : measured_of(character, CheckSettings{}, check, f.subject, f.worst_margin);
+        if (!measured) continue;
+        Beyond& beyond = beyond_[check][f.subject];
+        if (std::fabs(f.worst_margin) > std::fabs(beyond.worst.value - beyond.worst.limit)) beyond.worst = *measured;
+        beyond.joint = f.subject, beyond.unit = f.unit;
+        if (seen.insert(f.subject).second) ++beyond.motions;
+      }
+    }
+  }
+
+  // "body/pan turns 1 980 deg/s, limit 120 deg/s, in 24 of 24 motions."
+  std::string worst_joint(const std::string& check) const {
+    const auto found = beyond_.find(check);
+    if (found == beyond_.end()) return "A joint is beyond its limit.";
+    const auto excess = [](const Beyond& b) { return std::fabs(b.worst.value - b.worst.limit); };
+    const Beyond& beyond =
+        std::max_element(found->second.begin(), found->second.end(), [&](const auto& a, const auto& b) {
+          return excess(a.second) < excess(b.second);
+        })->second;
+    return beyond.joint + " " + measured_text(check, beyond.unit, beyond.worst) + ", in " +
+           std::to_string(beyond.motions) + " of " + std::to_string(out_.motions) + " motions.";
   }
 
   void note_judged(const Evaluation& evaluation) {
@@ -277,11 +316,13 @@ class Examination {
       fault(wild_joint_ + " turns by more than 20 degrees from frame to frame most of the time; is an angle in degrees "
             "used where radians are expected?");
     else if (share("angular_velocity") > kOften)
-      fault("Joints turn faster than the manifest declares in " + rounded_text(100.0 * share("angular_velocity")) +
-            " % of the motions; is max_speed_deg_s in degrees per second, and correct?");
+      fault(worst_joint("angular_velocity") +
+            " Either the unit of max_speed_deg_s is wrong (degrees per second), or the motion is too fast; contort fuzz "
+            "then shows where.");
     if (share("joint_range") > kOften)
-      fault("Joints leave the ranges that the manifest declares in " + rounded_text(100.0 * share("joint_range")) +
-            " % of the motions; are low_deg and high_deg in degrees relative to rest, and correct?");
+      fault(worst_joint("joint_range") +
+            " Either low_deg and high_deg are wrong (degrees, relative to the rest pose), or the motion leaves the range; "
+            "contort fuzz then shows where.");
     if (share("off_axis") > kOften)
       fault("Hinges turn about other axes than the manifest declares in " + rounded_text(100.0 * share("off_axis")) +
             " % of the motions; is axis in the joint's own frame?");
@@ -333,7 +374,8 @@ class Examination {
   DrawConfig config_;
   Conformance out_;
   std::string wild_joint_;
-  bool has_ended_ = false;  // one such fault is enough, because the next would be the same
+  std::map<std::string, std::map<std::string, Beyond>> beyond_;  // by check and joint
+  bool has_ended_ = false;  // one such fault is enough: the next would be the same
 };
 
 }  // namespace

@@ -98,8 +98,7 @@ Result<Bucket> find_bucket(const std::vector<Bucket>& buckets, const std::string
 }
 
 std::string cause_text(const Case& minimal) {
-  return cause_id_of(minimal) + ": " +
-         cause_headline(cause_of(minimal), minimal.expect.check, minimal.expect.subject);
+  return cause_id_of(minimal) + ": " + cause_headline(minimal);
 }
 
 void show(const CorpusOptions& options, Context& context) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <span>
 
 #include "cli/against.h"
@@ -64,7 +65,7 @@ std::string verdict(const RunRecord& record, std::span<const CauseRow> causes) {
   const std::string share =
       clean_share(judged, record.failing) + " of " + counted(judged, "case is clean", "cases are clean");
   if (record.failing == 0) return share + ".";
-  const std::string failing = share + "; " + counted(record.failing, "fails", "fail");
+  const std::string failing = share + "; " + counted(record.failing, "case fails", "cases fail");
   if (causes.empty()) return failing + "; none has a smallest case yet, so no cause is known.";
   return failing + ", by " + counted(std::ssize(causes), "cause", "causes") + ", " + news_text(causes) + ".";
 }
@@ -124,6 +125,7 @@ void print_totals_json(const RunResult& result, const TotalsRequest& request) {
                            {"new_buckets", result.new_buckets},
                            {"known_buckets", result.known_buckets},
                            {"waiting", result.waiting},
+                           {"unsettled", result.unsettled},
                            {"unconfirmed", result.unconfirmed},
                            {"discarded", t.discarded},
                            {"refusals", refusals_json(t.refusals)},
@@ -135,18 +137,26 @@ void print_totals_json(const RunResult& result, const TotalsRequest& request) {
   std::printf("%s\n", out.dump(2, ' ', false, json_fields::Json::error_handler_t::replace).c_str());
 }
 
+// The run was stopped by a signal.
+std::string stopped_text(int unsettled) {
+  const std::string rest = "The same command with --resume continues the run.";
+  if (unsettled == 0) return "The run was stopped. " + rest;
+  return "The run was stopped before " + counted(unsettled, "failure", "failures") + " could be shrunk. " + rest;
+}
+
 std::string kinds_text(std::int64_t count) { return counted(count, "kind of failure", "kinds of failure"); }
 
 void print_counts(const RunResult& result, const TotalsRequest& request) {
   const RunRecord& t = result.record;
   const std::string cases = counted(t.cases, "case", "cases"), frames = counted(t.frames, "frame", "frames");
-  const std::string failed = count_text(t.failing) + (request.against ? " broke or got worse" : " failed");
-  std::printf("%s (%s) in %.1f s: %s, in %s; stored in %s\n", cases.c_str(), frames.c_str(), result.elapsed_s,
+  const std::string failed = counted(t.failing, "case", "cases") + (request.against ? " broke or got worse" : " failed");
+  std::printf("%s (%s) in %.1f s: %s, with %s; stored in %s\n", cases.c_str(), frames.c_str(), result.elapsed_s,
               failed.c_str(), kinds_text(std::ssize(t.families)).c_str(), request.corpus.c_str());
   const auto late =
       std::ranges::count_if(t.families, [](const auto& family) { return family.second.first_indices.empty(); });
   if (late > 0)
-    std::printf("%s only counted, not shrunk and stored: never among the %d earliest of a case (--shrinks-per-case)\n",
+    std::printf("%s only counted: of each case only its %d earliest failures are stored. Raise --shrinks-per-case to "
+                "store more.\n",
                 (kinds_text(late) + (late == 1 ? " is" : " are")).c_str(), request.shrinks_per_case);
 }
 
@@ -158,11 +168,10 @@ void print_totals_text(const RunResult& result, const TotalsRequest& request) {
     std::printf("%s\n", printable(line).c_str());
   print_counts(result, request);
   if (t.cases > t.discarded && !request.against) std::printf("%s\n", outlook(progress_of(std::span(&t, 1))).c_str());
-  if (result.interrupted)
-    std::printf("%d failures wait to be shrunk: the same command with --resume goes on from here\n", result.unsettled);
+  if (result.interrupted) std::printf("%s\n", stopped_text(result.unsettled).c_str());
   if (!result.waiting.empty())
-    std::printf("%zu failures wait in %s/leads, as time was up: the next contort fuzz there shrinks them\n",
-                result.waiting.size(), request.corpus.c_str());
+    std::printf("Time was up before %s could be shrunk. The next contort fuzz in %s shrinks them.\n",
+                counted(std::ssize(result.waiting), "failure", "failures").c_str(), request.corpus.c_str());
   if (t.shards > 1)
     std::printf("shard %d of %d: what it found waits in %s/leads for contort merge\n", t.shard, t.shards,
                 request.corpus.c_str());
@@ -177,9 +186,10 @@ void print_totals(const RunResult& result, const TotalsRequest& request) {
 // The last line, whatever else was printed.
 void print_result(const RunResult& result) {
   const RunRecord& t = result.record;
+  const std::size_t waiting = result.waiting.size() + static_cast<std::size_t>(result.unsettled);
   std::printf(
       "RESULT findings=%lld new=%zu known=%zu waiting=%zu families=%zu unconfirmed=%zu cases=%lld frames=%lld%s\n",
-      static_cast<long long>(t.failing), result.new_buckets.size(), result.known_buckets.size(), result.waiting.size(),
+      static_cast<long long>(t.failing), result.new_buckets.size(), result.known_buckets.size(), waiting,
       t.families.size(), result.unconfirmed.size(), static_cast<long long>(t.cases), static_cast<long long>(t.frames),
       comparison_counts(result).c_str());
 }

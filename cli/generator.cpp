@@ -1,6 +1,7 @@
 // contort generator check: checks whether a program keeps the protocol contort.generator/1, and reports it in
 // sentences.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -80,7 +81,9 @@ void print_conformance(const Conformance& found) {
     std::printf("%s\n", printable(line).c_str());
   for (const ProtocolRemark& remark : found.remarks)
     std::printf("%s: %s\n", remark.is_fault ? "FAULT" : "note", printable(remark.text).c_str());
-  if (!found.has_fault()) std::printf("OK: the generator keeps the protocol.\n");
+  const auto faults = std::ranges::count_if(found.remarks, &ProtocolRemark::is_fault);
+  std::printf("%s\n", faults == 0 ? "OK: the generator keeps the protocol."
+                                  : ("FAILED: " + counted(faults, "fault", "faults") + ".").c_str());
 }
 
 void run(const std::string& command, bool limits, Context& context) {

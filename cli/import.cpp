@@ -114,11 +114,17 @@ void print_next_steps(const ImportCall& options, const std::string& name) {
 
 void print_text(const ImportCall& options, const Imported& imported) {
   const std::string& name = imported.cut.character.name;
+  if (fs::path(options.model).stem().string() != name)
+    std::printf("name: %s (--name gives another)\n", name.c_str());
   std::printf("%s: %s, %.3g m, %.4g kg, %zu joints in %zu parts\n", name.c_str(), build_of(imported.figure),
               imported.figure.height_m, imported.mass_kg, imported.figure.bones.size(), imported.cut.parts.size());
-  std::printf("limits: %d from the table of people, %d from its own clips, %d generic; contacts allowed: %zu\n",
+  std::printf("joint ranges: %d human defaults, %d measured in the model's clips, %d guessed; contacts allowed: %zu\n",
               count_sources(imported, LimitSource::table), count_sources(imported, LimitSource::clips),
               count_sources(imported, LimitSource::generic), imported.contacts.pairs.size());
+  if (const int narrow = count_too_narrow(imported); narrow > 0)
+    std::printf("%d of the human defaults %s too narrow for the model's own clips: %s.import.md names them. Widen low_deg, "
+                "high_deg and swing_deg in %s_*.json, or the clips will be found to leave their ranges.\n",
+                narrow, narrow == 1 ? "is" : "are", name.c_str(), name.c_str());
   print_notes(imported.figure.notes);
   print_next_steps(options, name);
 }

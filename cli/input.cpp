@@ -12,6 +12,7 @@
 #include "model/core/file_kind.h"
 #include "model/core/files.h"
 #include "model/core/hash.h"
+#include "formats/detect/file_format.h"
 #include "model/core/inside_folder.h"
 #include "model/core/json_fields.h"
 
@@ -37,6 +38,13 @@ Issue other_format(const std::string& path, const std::string& text) {
   const bool is_said = tree && tree->is_object() && format != tree->end() && format->is_string();
   const std::string found = is_said ? "found " + json_fields::quoted(format->get<std::string>()) + ", " : "";
   return {"spec.wrong_format", "/format", path + ": " + found + expected};
+}
+
+// An animation file has clips, which another command judges and draws.
+Issue with_advice_for_clips(Issue issue, const std::string& path) {
+  if (issue.code == "file.wrong_kind" && format_of_file(path) != FileFormat::none)
+    issue.text += "; for pictures of clips: contort check " + path + " --report DIR";
+  return issue;
 }
 
 }  // namespace
@@ -76,7 +84,7 @@ Result<CheckSettings> load_settings_file(const std::string& path) {
 
 Result<SpecInput> read_spec_input(const std::string& path, const std::string& level) {
   const Result<std::string> text = read_named_json(path, kSpecOrCase);
-  if (!text) return text.issue();
+  if (!text) return with_advice_for_clips(text.issue(), path);
   Result<SpecInput> input = parse_spec_input(*text, path);
   if (!input || level.empty()) return input;
   const Result<ReplayScope> scope = parse_scope(level);

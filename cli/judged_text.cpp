@@ -40,11 +40,22 @@ std::string subjects_text(const JudgedSummary& summary) {
   return text;
 }
 
-bool lacks_character(std::string_view reason) { return reason.find("(--character)") != std::string_view::npos; }
+// Reasons with one cure for many checks: these are named in one line.
+struct SharedReason {
+  std::string_view mark, line;
+};
+constexpr SharedReason kShared[] = {
+    {"(--character)", "  Without a character (--character) could not judge: "},
+    {"the generator is not a program of its own", "  Only for external generators (--generator): "},
+    {"the motion is not a clip of an animation file", "  Only for clips of animation files: "}};
+
+bool is_shared(std::string_view reason) {
+  return std::ranges::any_of(kShared, [&](const SharedReason& shared) { return reason.find(shared.mark) != std::string_view::npos; });
+}
 
 void add_reasons(const JudgedSummary& summary, std::string_view check, std::vector<std::string>& lines) {
   for (const auto& [reason, motions] : summary.checks.at(check).reasons) {
-    if (lacks_character(reason)) continue;
+    if (is_shared(reason)) continue;
     const std::string where = summary.motions > 1 && motions < summary.motions
                                   ? " in " + std::to_string(motions) + " of " + std::to_string(summary.motions)
                                   : "";
@@ -52,14 +63,13 @@ void add_reasons(const JudgedSummary& summary, std::string_view check, std::vect
   }
 }
 
-// Puts all of them into one line, because one option makes them all judge.
-void add_without_character(const JudgedSummary& summary, std::vector<std::string>& lines) {
+void add_shared(const JudgedSummary& summary, const SharedReason& shared, std::vector<std::string>& lines) {
   std::string names;
   for (const CheckDef& check : all_checks())
     if (const auto tally = summary.checks.find(check.name); tally != summary.checks.end())
       for (const auto& [reason, motions] : tally->second.reasons)
-        if (lacks_character(reason)) names += (names.empty() ? "" : ", ") + std::string(check.name);
-  if (!names.empty()) lines.push_back("  Without a character (--character) could not judge: " + names);
+        if (reason.find(shared.mark) != std::string_view::npos) names += (names.empty() ? "" : ", ") + std::string(check.name);
+  if (!names.empty()) lines.push_back(std::string(shared.line) + names);
 }
 
 }  // namespace
@@ -81,7 +91,7 @@ std::vector<std::string> judged_lines(const JudgedSummary& summary) {
     lines.push_back("  not read: " + count_of(channels, "channel") + " (" + kind + ")");
   for (const CheckDef& check : all_checks())
     if (summary.checks.contains(check.name)) add_reasons(summary, check.name, lines);
-  add_without_character(summary, lines);
+  for (const SharedReason& shared : kShared) add_shared(summary, shared, lines);
   return lines;
 }
 

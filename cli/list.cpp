@@ -1,5 +1,6 @@
 // contort list, contort schema, contort version: lists the contents of the manifests.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <functional>
 #include <set>
@@ -24,7 +25,9 @@ namespace {
 
 using json_fields::Json;
 
+// Names and choices have no range: "".
 std::string range_text(const Json& param) {
+  if (param["low"] == param["high"]) return "";
   char text[80];
   std::snprintf(text, sizeof text, "[%g, %g]", param["low"].get<double>(), param["high"].get<double>());
   return text;
@@ -55,9 +58,8 @@ void print_markdown(const Json& list) {
     const auto first = action["params_on"].begin();
     std::printf("\nOn `%s`:\n\n| parameter | type | range | meaning |\n|---|---|---|---|\n", first.key().c_str());
     for (const Json& param : first.value()) {
-      const bool ranged = param["low"] != param["high"];
       std::printf("| `%s` | %s | %s | %s |\n", param["name"].get<std::string>().c_str(),
-                  param["type"].get<std::string>().c_str(), ranged ? range_text(param).c_str() : "",
+                  param["type"].get<std::string>().c_str(), range_text(param).c_str(),
                   param["help"].get<std::string>().c_str());
     }
   }
@@ -72,8 +74,11 @@ void print_slots(const Json& character) {
 }
 
 void print_text(const Json& list) {
+  std::size_t width = 18;
+  for (const Json& item : list) width = std::max(width, item["name"].get<std::string>().size());
   for (const Json& item : list) {
-    std::printf("%-18s %s\n", item["name"].get<std::string>().c_str(), item["help"].get<std::string>().c_str());
+    std::printf("%-*s %s\n", static_cast<int>(width), item["name"].get<std::string>().c_str(),
+                item["help"].get<std::string>().c_str());
     if (item.contains("params_on")) print_params(item);
     if (item.contains("slots")) print_slots(item);
   }

@@ -68,7 +68,9 @@ Result<CheckSettings> Context::load_settings_without_waivers() const {
 std::string Context::day() const { return today.empty() ? day_of_clock() : today; }
 
 void Context::fail(const Issue& issue, Exit code) {
-  std::fprintf(stderr, "contort: %s\n", printable(to_line(issue)).c_str());
+  const bool may_need_library = issue.code == "character.unknown_character" && sources.libraries.empty();
+  std::fprintf(stderr, "contort: %s%s\n", printable(to_line(issue)).c_str(),
+               may_need_library ? "; characters of your own need --library FOLDER" : "");
   exit_code = code;
 }
 
@@ -96,7 +98,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.fallthrough();
   app.footer(
-      "Exit codes: 0 nothing gating, 1 gating findings, 2 bad usage or input, 3 internal error,\n"
+      "Exit codes: 0 nothing that should fail a build, 1 something that should, 2 bad usage or input, 3 internal error,\n"
       "4 inconclusive, 75 interrupted. 'contort COMMAND --help' and 'contort help COMMAND' explain one command.");
   for (const auto add :
        {add_fuzz, add_generator, add_guest_builtin, add_replay, add_generate, add_audit, add_check, add_measure, add_shrink, add_render, add_report,

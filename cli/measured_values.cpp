@@ -14,14 +14,29 @@ const std::optional<Character>& MeasuredValues::character_of(const Case& stored)
   return at->second;
 }
 
+namespace {
+
+// A program under test says for each of its goals how near it must come.
+bool has_own_limit(const Case& stored) {
+  return !stored.provenance.generator.empty() && stored.expect.check == "reach_error";
+}
+
+}  // namespace
+
 std::string MeasuredValues::text_of(const Case& stored) {
   const std::optional<Character>& character = character_of(stored);
-  if (!character) return "";
+  if (!character || has_own_limit(stored)) return "";
   const Expectation& expect = stored.expect;
-  // A program under test declares the tolerance of each of its goals, so the limit is unknown here.
-  if (!stored.provenance.generator.empty() && expect.check == "reach_error") return "";
   const auto measured = measured_of(*character, settings_, expect.check, expect.subject, expect.worst_margin);
   return measured ? measured_text(expect.check, expect.unit, *measured) : "";
+}
+
+std::string MeasuredValues::sentence_of(const Case& stored) {
+  const Expectation& expect = stored.expect;
+  if (is_abnormal_exit(expect)) return "";
+  const std::optional<Character>& character = character_of(stored);
+  return failed_text({expect.check, expect.subject, expect.unit, expect.worst_margin, has_own_limit(stored)},
+                     character ? &*character : nullptr, settings_);
 }
 
 }  // namespace contort::cli

@@ -21,6 +21,9 @@ class MeasuredValues {
   // character has changed since.
   std::string text_of(const Case& stored);
 
+  // Returns the same text, or else how far beyond its limit the subject is; "" for a crash, a timeout or memory.
+  std::string sentence_of(const Case& stored);
+
  private:
   const std::optional<Character>& character_of(const Case& stored);
 

@@ -42,12 +42,12 @@ std::string decimal(double value, int digits) {
   return text;
 }
 
-std::string finding_line(const Finding& finding, double rate_hz, const Circumstances& at_worst) {
+std::string finding_line(const Finding& finding, const std::string& value, double rate_hz,
+                         const Circumstances& at_worst) {
   char frames[120];
   std::snprintf(frames, sizeof frames, "frames %d-%d, worst %d (%s s)", finding.first_frame, finding.last_frame,
                 finding.worst_frame, decimal(finding.worst_frame / rate_hz, 3).c_str());
-  std::string line = finding.check + "  " + finding.subject + "  " +
-                     margin_text(finding.worst_margin, finding.unit) + "  " + frames + "  " + std::string(phase_name(at_worst.phase));
+  std::string line = finding.check + "  " + finding.subject + "  " + value + "  " + frames + "  " + std::string(phase_name(at_worst.phase));
   for (const ActiveAction& action : at_worst.actions)
     line += (&action == at_worst.actions.data() ? ": " : ", ") + action.name + " (" + action.slot + ")";
   return line;

@@ -12,9 +12,10 @@
 
 namespace contort::cli {
 
-// "self_collision  arm_left/forearm ~ torso/trunk  -0.031 m (-31 mm)  frames 12-40, worst 20 (0.333 s)  blend: reach
-// (arm_left)"
-std::string finding_line(const Finding& finding, double rate_hz, const Circumstances& at_worst);
+// "self_collision  arm_left/forearm ~ torso/trunk  31 mm deep in each other, limit 0 mm  frames 12-40, worst 20 (0.333
+// s)  blend: reach (arm_left)". `value` is failed_text() of the finding.
+std::string finding_line(const Finding& finding, const std::string& value, double rate_hz,
+                         const Circumstances& at_worst);
 
 // A JSON list: check, subject, unit, margin (null for NaN), depth, frames and times, and the circumstances of the worst
 // frame. `at_worst` has one entry for each finding.

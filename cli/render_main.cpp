@@ -20,6 +20,7 @@
 #include "process/ended.h"
 #include "renders/divergence.h"
 #include "renders/frames.h"
+#include "renders/measured_text.h"
 #include "renders/raster/strip.h"
 #include "renders/skin.h"
 #include "renders/strip_views.h"
@@ -72,10 +73,17 @@ Result<std::unique_ptr<Shown>> evaluate(Studio& studio, const std::string& file)
   return shown;
 }
 
+std::string sentence_of(const Finding& finding, const Character& character, const RenderOptions& options) {
+  const bool has_own_limit = !options.sources.generator.empty() && finding.check == "reach_error";
+  return failed_text({finding.check, finding.subject, finding.unit, finding.worst_margin, has_own_limit}, &character,
+                     options.settings);
+}
+
 StripInput strip_of(const Shown& shown, const RenderOptions& options, const std::string& file) {
   const Execution& execution = shown.evaluator.execution();
   StripInput strip{*execution.character, execution.motion};
   strip.finding = subject_of(shown.input, shown.evaluation.findings);
+  if (strip.finding != nullptr) strip.measured = sentence_of(*strip.finding, *execution.character, options);
   if (plays_another_motion(shown.input, shown.evaluation)) strip.note = "NOT THE STORED MOTION";
   strip.replay_command =
       shown.input.stored ? replay_command(file, options.sources) : "contort check " + shell_quoted(file);
@@ -221,11 +229,8 @@ Result<StripDone> draw_comparison(Studio& studio) {
 constexpr int kSheetColumns = 5;
 constexpr std::size_t kMostSheetTiles = 1000;
 
-// A narrow tile cuts the end of the title, so the joint comes first.
 Result<Image> draw_tile(Studio& studio, const Shown& shown, const std::string& file) {
-  StripInput strip = strip_of(shown, studio.options, file);
-  if (strip.finding != nullptr) strip.title = strip.finding->subject + "  " + strip.finding->check;
-  return studio.renderer.render_tile(strip);
+  return studio.renderer.render_tile(strip_of(shown, studio.options, file));
 }
 
 // Draws a tile for each file. Files that cannot be shown are left out and counted, and listed in `warnings`.

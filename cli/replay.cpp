@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/input.h"
 #include "cli/limits.h"
+#include "cli/measured_values.h"
 #include "cli/outputs.h"
 #include "cli/print.h"
 #include "cli/replay_text.h"
@@ -85,8 +86,13 @@ struct Totals {
 // One call of the command.
 class ReplayCommand {
  public:
-  ReplayCommand(const ReplayOptions& options, RunCase replay, const Manifest& manifest, Context& context)
-      : options_(options), replay_(std::move(replay), options.limits.limits()), manifest_(manifest), context_(context) {}
+  ReplayCommand(const ReplayOptions& options, RunCase replay, const Manifest& manifest, MeasuredValues values,
+                Context& context)
+      : options_(options),
+        replay_(std::move(replay), options.limits.limits()),
+        manifest_(manifest),
+        values_(std::move(values)),
+        context_(context) {}
 
   Result<Done> prepare() {
     const Result<Baseline> known = load_baseline(options_.baseline);
@@ -119,7 +125,7 @@ class ReplayCommand {
       list_.push_back(as_json(path, family_of(*stored), result));
     else
       std::printf("%-17s  %s  %s\n", outcome_words(cli::outcome_of(result.verdict)).c_str(), path.c_str(),
-                  printable(case_text(*stored, result) + change_of_build(*stored)).c_str());
+                  printable(case_text(*stored, result, values_) + change_of_build(*stored)).c_str());
   }
 
   void run_corpus(const std::string& folder) {
@@ -274,6 +280,7 @@ class ReplayCommand {
   const ReplayOptions& options_;
   GuardedReplay replay_;
   const Manifest& manifest_;
+  MeasuredValues values_;
   Context& context_;
   Baseline known_;
   std::optional<Clock::time_point> end_;
@@ -297,7 +304,8 @@ void run(const ReplayOptions& options, Context& context) {
   const auto replay_one = [&](const Case& stored) {
     return replay(stored, evaluator, *scope, isolation_of(options.limits.limits()));
   };
-  ReplayCommand replays(options, replay_one, generator->manifest(), context);
+  ReplayCommand replays(options, replay_one, generator->manifest(),
+                        MeasuredValues(*generator->manifest().library, *settings), context);
   if (const Result<Done> ready = replays.prepare(); !ready) return context.fail(ready.issue());
   for (const std::string& path : options.paths) {
     std::error_code error;

@@ -1,7 +1,5 @@
 #include "cli/replay_text.h"
 
-#include <cmath>
-
 #include "renders/wording.h"
 
 namespace contort::cli {
@@ -23,13 +21,12 @@ OutcomeWords words_of(Outcome outcome) {
   return {};
 }
 
-// A process that ended has no value beyond a limit.
-std::string beyond_text(const Expectation& now) {
+// A process that ended has no value.
+std::string value_of(const Case& stored, const Expectation& now, MeasuredValues& values) {
   if (is_abnormal_exit(now)) return "";
-  const std::string at = " at frame " + std::to_string(now.worst_frame);
-  if (std::isnan(now.worst_margin)) return ", not a number" + at;
-  const double excess = -now.worst_margin;
-  return ", " + (now.unit.empty() ? rounded_text(excess) : margin_text(excess, now.unit)) + " beyond the limit" + at;
+  Case replayed = stored;
+  replayed.expect = now;
+  return ": " + values.sentence_of(replayed) + ", at frame " + std::to_string(now.worst_frame);
 }
 
 }  // namespace
@@ -55,7 +52,7 @@ std::string tally_text(const std::map<Outcome, int>& outcomes) {
 }
 
 std::string failure_text(const Case& minimal) {
-  return cause_headline(cause_of(minimal), minimal.expect.check, minimal.expect.subject) + " (" +
+  return cause_headline(minimal) + " (" +
          minimal.spec.character.name + ")";
 }
 
@@ -65,12 +62,12 @@ std::string change_text(const Replay& result) {
   return ", moves differently from frame " + std::to_string(result.first_difference) + " on";
 }
 
-std::string case_text(const Case& stored, const Replay& result) {
+std::string case_text(const Case& stored, const Replay& result, MeasuredValues& values) {
   if (result.verdict == Verdict::refused) return to_line(result.issue);
   std::string text = failure_text(stored);
   if (result.verdict == Verdict::different)
     text += "; now: " + failure_in_words(result.now.check, result.now.subject);
-  if (result.verdict != Verdict::passes) text += beyond_text(result.now);
+  if (result.verdict != Verdict::passes) text += value_of(stored, result.now, values);
   text += change_text(result);
   if (result.character_changed) text += ", the character has changed";
   return text;

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "cli/measured_values.h"
 #include "corpus/bucket.h"
 #include "corpus/case.h"
 #include "corpus/replay.h"
@@ -22,9 +23,9 @@ std::string tally_text(const std::map<Outcome, int>& outcomes);
 // A failure by its headline and its character: "Elbow leaves its range during swing (hero)".
 std::string failure_text(const Case& minimal);
 
-// The failure of a case and the result of its replay: "Elbow leaves its range during swing (hero), 0.21 rad (12°)
-// beyond the limit at frame 30". For a refused case, the reason.
-std::string case_text(const Case& stored, const Replay& result);
+// The failure of a case and the result of its replay: "Elbow leaves its range during swing (hero): is at 120°, limit
+// 108°, at frame 30". For a refused case, the reason.
+std::string case_text(const Case& stored, const Replay& result, MeasuredValues& values);
 
 // The difference between a stored motion and one that still fails, with a comma before it; "" if they are equal, or if
 // it fails in another way.

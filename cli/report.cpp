@@ -29,6 +29,7 @@
 #include "corpus/leads.h"
 #include "corpus/runs.h"
 #include "fuzz/labels.h"
+#include "fuzz/run_state.h"
 #include "model/core/files.h"
 #include "model/core/hash.h"
 #include "model/core/inside_folder.h"
@@ -93,6 +94,7 @@ ReportRow row_of_case(const Case& stored, const std::string& path, const std::st
   row.printed = stored.expect.printed;
   row.subject = stored.spec.character.name + ": " + stored.expect.subject, row.unit = stored.expect.unit;
   row.worst_margin = stored.expect.worst_margin, row.measured = with.measured.text_of(stored);
+  row.sentence = with.measured.sentence_of(stored);
   row.case_file = location_of(with.corpus, path);
   row.spec_json = pretty_spec(stored.spec);
   row.replay_command = replay_command(path, with.context.sources);
@@ -135,7 +137,7 @@ ReportRow row_of(const Lead& lead, const std::set<Family>& known, const RowConte
   row.state = waits(lead) ? "waiting" : "unconfirmed";
   const Family family = family_of(lead.original);
   row.gating = waits(lead) && !known.contains(family) && !may_be_chance(family, with.now, with.known);
-  row.note = waits(lead) ? "found when time was up: the next contort fuzz on this corpus shrinks it"
+  row.note = waits(lead) ? "time was up before it could be shrunk: the next contort fuzz on this corpus shrinks it"
                          : "seen once: a second run did not show it";
   return row;
 }
@@ -295,6 +297,7 @@ void write_page(const ReportRequest& request, const ReportModel& model, Media me
       return context.fail(written.issue(), kInternal);
   if (!request.announce) return;
   std::printf("report: %s/index.html (%s)\n", request.folder.c_str(), failures_text(model).c_str());
+  if (model.unsettled > 0) std::printf("%s\n", unsettled_text(model.unsettled).c_str());
 }
 
 }  // namespace
@@ -320,6 +323,7 @@ void make_report(const ReportRequest& request, Generator& generator, Context& co
   const MeasuredValues measured(*generator.manifest().library, *settings);
   fill_rows(*corpus, *known, measured, model, media, request.folder, context);
   count_totals(add_runs(*corpus, model, context), model);
+  model.unsettled = unsettled_failures(*corpus);
   add_never_tested(generator, model);
   if (const auto written = write_outputs(request.outputs, model, request.announce ? stdout : stderr); !written)
     return context.fail(written.issue(), kInternal);

@@ -8,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/input.h"
+#include "cli/measured_values.h"
 #include "cli/print.h"
 #include "cli/tested.h"
 #include "corpus/corpus.h"
@@ -83,15 +84,15 @@ Result<ShrinkConfig> configure(const ShrinkOptions& options, const CheckSettings
   return config;
 }
 
-void print_shrunk(const Shrunk& shrunk, const Case& original, const std::string& output, const Context& context) {
+void print_shrunk(const Shrunk& shrunk, const Case& original, const std::string& output, MeasuredValues values,
+                  const Context& context) {
   std::printf("%s: %zu bytes of spec, was %zu (%d evaluations, %s)\n", output.c_str(),
               print_spec(shrunk.minimal.spec).size(), print_spec(original.spec).size(), shrunk.evaluations,
               shrunk.stopped.c_str());
   for (const std::string& pointer : shrunk.minimal.free_fields) std::printf("any value: %s\n", pointer.c_str());
   if (shrunk.worst.expect.depth > shrunk.minimal.expect.depth)
-    std::printf("worst: %s, %s here\n",
-                margin_text(shrunk.worst.expect.worst_margin, shrunk.worst.expect.unit).c_str(),
-                short_number(shrunk.minimal.expect.worst_margin).c_str());
+    std::printf("worst: %s; here: %s\n", values.sentence_of(shrunk.worst).c_str(),
+                values.sentence_of(shrunk.minimal).c_str());
   for (const Family& other : shrunk.minimal.co_failures) std::printf("comes with it: %s\n", print_family(other).c_str());
   if (shrunk.precursor) std::printf("a run files it under: %s\n", print_family(family_of(*shrunk.precursor)).c_str());
   for (const Case& other : shrunk.met) std::printf("also met: %s\n", print_family(family_of(other)).c_str());
@@ -141,7 +142,7 @@ void run(const ShrinkOptions& options, Context& context) {
     if (const Result<Done> written = write_output(options.worst, print_case(shrunk.worst)); !written)
       return context.fail(written.issue(), kInternal);
   if (options.json) return print_json(shrunk, output);
-  print_shrunk(shrunk, *original, output, context);
+  print_shrunk(shrunk, *original, output, MeasuredValues(*generator->manifest().library, *settings), context);
 }
 
 }  // namespace

@@ -36,9 +36,10 @@ void each_finding(const ClipReport& clip, const std::function<void(const WorstMo
     see({f, f.what.empty() ? beyond_text(f) : f.what,
          f.first_frame < 0 ? std::nullopt : std::optional<double>(f.t1_s)});
   if (clip.motion)
-    for (const Finding& f : clip.judged.motion_findings)
-      see({f, margin_text(f.worst_margin, f.unit) + " from the limit", clip.motion->time_s(f.worst_frame),
-           f.worst_frame});
+    for (std::size_t i = 0; i < clip.judged.motion_findings.size(); ++i) {
+      const Finding& f = clip.judged.motion_findings[i];
+      see({f, clip.motion_texts[i], clip.motion->time_s(f.worst_frame), f.worst_frame});
+    }
 }
 
 double depth_of(const Finding& finding) { return std::isnan(finding.depth) ? HUGE_VAL : finding.depth; }

@@ -13,7 +13,7 @@ namespace contort::cli {
 
 struct WorstMoment {
   Finding finding;
-  std::string measured;          // "9000.0 deg/s, allowed 3000.0"; for a character's motion as in measured_of
+  std::string measured;          // "9000.0 deg/s, allowed 3000.0"
   std::optional<double> time_s;  // time in the clip; empty for findings without a time
   int frame = -1;                // frame of the character's motion; -1 if the finding is about the clip itself
 };

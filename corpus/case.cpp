@@ -68,4 +68,9 @@ Expectation expectation_of(const Execution& execution, const Evaluation& evaluat
   return expect;
 }
 
+std::string cause_headline(const Case& minimal) {
+  const Expectation& expect = minimal.expect;
+  return cause_headline(cause_of(minimal), expect.check, std::span(&expect.subject, 1), &minimal.spec.environment);
+}
+
 }  // namespace contort

@@ -73,6 +73,9 @@ Family family_of(const Case& stored);
 
 // Returns the stored cause, or, if none is stored, the cause that follows from the spec alone.
 Cause cause_of(const Case& minimal);
+
+// "Left hand goes through right thigh during aim": what fails, and its cause.
+std::string cause_headline(const Case& minimal);
 std::string cause_id_of(const Case& minimal);
 
 // The depth of the failure in its check's scale. NaN is deeper than any finite depth.

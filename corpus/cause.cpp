@@ -32,6 +32,24 @@ std::string_view without_side(std::string_view slot) {
   return side.empty() ? slot : slot.substr(0, slot.size() - side.size() - 1);
 }
 
+bool has_letters_of(std::string_view text, std::string_view lower_case) {
+  const auto is_same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + 32 : a) == b; };
+  return std::ranges::search(text, lower_case, is_same).begin() != text.end();
+}
+
+// "ball_r" of a right foot is "ball", and "ball_r swing" is "ball swing": the side is said before it.
+std::string without_side_letter(std::string_view name, std::string_view side) {
+  for (const std::string_view angle : {" swing", " twist"})
+    if (name.ends_with(angle))
+      return without_side_letter(name.substr(0, name.size() - angle.size()), side) + std::string(angle);
+  for (const char mark : {'_', '.'})
+    for (const char letter : {side.front(), static_cast<char>(side.front() - 32)}) {
+      const std::string end = {mark, letter};
+      if (name.size() > end.size() && name.ends_with(end)) return std::string(name.substr(0, name.size() - end.size()));
+    }
+  return std::string(name);
+}
+
 // The name of a subject in plain words: "arm_left/elbow max" becomes "left elbow".
 std::string body_in_words(std::string_view body) {
   for (const std::string_view end : {" min", " max"})
@@ -39,7 +57,8 @@ std::string body_in_words(std::string_view body) {
   const std::size_t slash = body.find('/');
   const std::string_view slot = body.substr(0, slash), side = side_of(slot);
   std::string words(slash == std::string_view::npos ? without_side(slot) : body.substr(slash + 1));
-  if (!side.empty() && words.find(side) == std::string::npos) words = std::string(side) + " " + words;
+  if (!side.empty() && !has_letters_of(words, side))
+    words = std::string(side) + " " + without_side_letter(words, side);
   std::ranges::replace(words, '_', ' ');
   return words;
 }
@@ -95,17 +114,64 @@ constexpr Verb kVerbs[] = {
     {"mirror_error", "moves differently on the other side"},
 };
 
-std::string what_happens(std::string_view check, std::string_view subject) {
-  if (check == "crash") return "the generator ends with " + std::string(subject);
+std::string_view verb_of(std::string_view check) {
+  if (check == "obstacle_penetration") return "goes through an obstacle";
+  for (const Verb& verb : kVerbs)
+    if (verb.check == check) return verb.text;
+  return "";
+}
+
+// "leaves its range" of several: "leave their range".
+std::string of_several(std::string_view verb) {
+  static constexpr std::pair<std::string_view, std::string_view> kIrregular[] = {
+      {"has", "have"}, {"is", "are"}, {"does", "do"}, {"goes", "go"}, {"misses", "miss"}, {"flashes", "flash"}};
+  const std::size_t end = std::min(verb.find(' '), verb.size());
+  const std::string_view first = verb.substr(0, end);
+  std::string text(first.ends_with('s') ? first.substr(0, first.size() - 1) : first);
+  for (const auto& [one, many] : kIrregular)
+    if (one == first) text = many;
+  text += verb.substr(end);
+  for (const auto& [one, many] : {std::pair(" its ", " their "), std::pair(" it stands", " they stand")})
+    if (const std::size_t at = text.find(one); at != std::string::npos)
+      text.replace(at, std::string_view(one).size(), many);
+  return text;
+}
+
+// The names of the subjects, each once.
+std::vector<std::string> names_of(std::span<const std::string> subjects) {
+  std::vector<std::string> names;
+  for (const std::string& subject : subjects)
+    if (std::string name = body_in_words(bodies_of(subject).front()); std::ranges::find(names, name) == names.end())
+      names.push_back(std::move(name));
+  return names;
+}
+
+// "pan", "pan and tilt", "pan, tilt and 3 others"
+std::string some_names(const std::vector<std::string>& names) {
+  if (names.size() == 1) return names.front();
+  if (names.size() == 2) return names[0] + " and " + names[1];
+  const std::size_t others = names.size() - 2;
+  return names[0] + ", " + names[1] + " and " + std::to_string(others) + (others == 1 ? " other" : " others");
+}
+
+std::string collision_in_words(std::span<const std::string> subjects) {
+  const std::vector<std::string_view> bodies = bodies_of(subjects.front());
+  const std::set<std::string> pairs(subjects.begin(), subjects.end());
+  const std::size_t others = pairs.size() - 1;
+  const std::string more =
+      others == 0 ? "" : " (and " + std::to_string(others) + (others == 1 ? " other pair)" : " other pairs)");
+  return body_in_words(bodies[0]) + " goes through " + body_in_words(bodies[1]) + more;
+}
+
+std::string what_happens(std::string_view check, std::span<const std::string> subjects) {
+  if (check == "crash") return "the generator ends with " + subjects.front();
   if (check == "timeout") return "the generator does not answer in time";
   if (check == "memory") return "the generator uses too much memory";
-  const std::vector<std::string_view> bodies = bodies_of(subject);
-  const std::string first = body_in_words(bodies.front());
-  if (check == "self_collision" || check == "obstacle_penetration")
-    return first + " goes through " + (bodies.size() > 1 ? body_in_words(bodies[1]) : "an obstacle");
-  for (const Verb& verb : kVerbs)
-    if (verb.check == check) return first + " " + std::string(verb.text);
-  return first + ": " + std::string(check);
+  if (check == "self_collision" && bodies_of(subjects.front()).size() > 1) return collision_in_words(subjects);
+  const std::vector<std::string> names = names_of(subjects);
+  const std::string_view verb = check == "self_collision" ? verb_of("obstacle_penetration") : verb_of(check);
+  if (verb.empty()) return some_names(names) + ": " + std::string(check);
+  return some_names(names) + " " + (names.size() == 1 ? std::string(verb) : of_several(verb));
 }
 
 bool is_disturbed(const Spec& spec) { return !spec.dynamics.impacts.empty() || !spec.dynamics.loads.empty(); }
@@ -118,7 +184,9 @@ std::vector<std::string> disturbances_of(const Spec& spec) {
 }
 
 // The name of a part of the setting in a sentence.
-std::string setting_in_words(const std::string& name) {
+std::string setting_in_words(const std::string& name, const EnvironmentDesc* environment) {
+  static constexpr std::string_view kGrounds[] = {"on level ground", "on a slope", "on steps", "on uneven ground"};
+  if (name == "ground" && environment != nullptr) return std::string(kGrounds[environment->ground.index()]);
   static constexpr std::pair<std::string_view, std::string_view> kWords[] = {
       {"ground", "on uneven ground"},        {"impact", "after an impact"},
       {"load", "under a load"},              {"obstacle", "beside an obstacle"},
@@ -129,9 +197,9 @@ std::string setting_in_words(const std::string& name) {
   return name;
 }
 
-std::string settings_in_words(const std::vector<std::string>& names) {
+std::string settings_in_words(const std::vector<std::string>& names, const EnvironmentDesc* environment) {
   std::vector<std::string> words;
-  for (const std::string& name : names) words.push_back(setting_in_words(name));
+  for (const std::string& name : names) words.push_back(setting_in_words(name, environment));
   return joined(words, " and ");
 }
 
@@ -203,20 +271,34 @@ std::vector<std::string> limbs_of(std::string_view subject) {
   return {limbs.begin(), limbs.end()};
 }
 
-std::string failure_in_words(std::string_view check, std::string_view subject) {
-  std::string text = what_happens(check, subject);
+namespace {
+
+std::string as_sentence(std::string text) {
   if (!text.empty() && text.front() >= 'a' && text.front() <= 'z') text.front() = static_cast<char>(text.front() - 32);
   return text;
 }
 
-std::string cause_headline(const Cause& cause, std::string_view check, std::string_view subject) {
-  std::string text = failure_in_words(check, subject);
+}  // namespace
+
+std::string failure_in_words(std::string_view check, std::string_view subject) {
+  const std::string one(subject);
+  return as_sentence(what_happens(check, std::span(&one, 1)));
+}
+
+std::string cause_headline(const Cause& cause, std::string_view check, std::span<const std::string> subjects,
+                           const EnvironmentDesc* environment) {
+  std::string text = as_sentence(what_happens(check, subjects));
   switch (cause.scope) {
-    case CauseScope::alone: text += " during " + joined(cause.names, ", ") ; break;
+    case CauseScope::alone: text += " during " + joined(cause.names, ", "); break;
     case CauseScope::company: text += " during " + first_joined(cause.names, " together with "); break;
-    case CauseScope::setting: text += " " + settings_in_words(cause.names); break;
+    case CauseScope::setting: text += " " + settings_in_words(cause.names, environment); break;
   }
   return text + (cause.is_simulated ? ", simulated" : "");
+}
+
+std::string cause_headline(const Cause& cause, std::string_view check, std::string_view subject) {
+  const std::string one(subject);
+  return cause_headline(cause, check, std::span(&one, 1), nullptr);
 }
 
 }  // namespace contort

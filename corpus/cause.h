@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,5 +58,11 @@ std::string failure_in_words(std::string_view check, std::string_view subject);
 
 // The same with its cause: "Left hand goes through right thigh during aim".
 std::string cause_headline(const Cause& cause, std::string_view check, std::string_view subject);
+
+// The same for failures of one check in several places, of which the first ones are named: "Pan and tilt turn too fast
+// during track". `subjects` has at least one. The environment of a spec tells a slope from other uneven ground; nullptr
+// if it is unknown.
+std::string cause_headline(const Cause& cause, std::string_view check, std::span<const std::string> subjects,
+                           const EnvironmentDesc* environment);
 
 }  // namespace contort

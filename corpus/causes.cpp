@@ -48,6 +48,15 @@ std::int64_t most_cases(const std::vector<CauseMember>& members, std::span<const
   return most;
 }
 
+// Names the places in which the check of the deepest member fails.
+std::string headline_of(const Cause& cause, const std::vector<CauseMember>& members) {
+  const Case& deepest = members.front().minimal;
+  std::vector<std::string> subjects;
+  for (const CauseMember& member : members)
+    if (member.minimal.expect.check == deepest.expect.check) subjects.push_back(member.minimal.expect.subject);
+  return cause_headline(cause, deepest.expect.check, subjects, &deepest.spec.environment);
+}
+
 CauseRow row_of(const std::string& id, std::vector<CauseMember> members, std::span<const RunRecord> runs) {
   CauseRow row{.id = id};
   std::ranges::sort(members, comes_before);
@@ -57,7 +66,7 @@ CauseRow row_of(const std::string& id, std::vector<CauseMember> members, std::sp
   row.cases = std::max(most_cases(members, runs), std::min<std::int64_t>(of_cases, 1));
   const Case& deepest = members.front().minimal;
   const Cause cause = cause_of(deepest);
-  row.headline = cause_headline(cause, deepest.expect.check, deepest.expect.subject);
+  row.headline = headline_of(cause, members);
   const double share = of_cases > 0 ? static_cast<double>(row.cases) / static_cast<double>(of_cases) : 1.0;
   row.severity = severity_of(kind_of_check(deepest.expect.check), median_depth(members), cause.scope, share);
   for (const CauseMember& member : members) row.characters.insert(member.bucket.family.character);

@@ -33,7 +33,7 @@ inline bool is_news(CauseNews news) { return news == CauseNews::fresh || news ==
 struct CauseRow {
   std::string id;
   double severity = 0.0;      // [0, 100]
-  std::string headline{};     // headline of its deepest member
+  std::string headline{};     // names what fails in its deepest member, and where else it fails
   std::int64_t cases = 0;     // number of cases of all runs that showed the most frequent family of its buckets; >= 1
                               // if any case ran
   std::set<std::string> characters{};

@@ -171,7 +171,7 @@ Result<Condition> find_condition(const Case& minimal, Generator& generator, cons
   const Result<Population> population = Population::like(minimal, generator);
   if (!population) return population.issue();
   Condition found{.cause = cause_id_of(minimal),
-                  .headline = cause_headline(cause, minimal.expect.check, minimal.expect.subject),
+                  .headline = cause_headline(minimal),
                   .character = minimal.spec.character.name,
                   .character_hash = minimal.expect.character_hash,
                   .tool = options.tool,

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <iterator>
 
 #include "fuzz/state_fields.h"
 #include "model/core/inside_folder.h"
@@ -85,6 +86,19 @@ Result<std::optional<RunState>> load_state(const Corpus& corpus, const RunRecord
 void drop_state(const Corpus& corpus, const RunRecord& record) {
   std::error_code ignored;
   fs::remove(state_path(corpus, record), ignored);
+}
+
+std::int64_t unsettled_failures(const Corpus& corpus) {
+  std::int64_t count = 0;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(corpus.folder() + "/runs", error)) {
+    if (entry.path().extension() != ".state") continue;
+    const Result<std::string> text = read_beside(entry.path().string(), kMostStateBytes);
+    if (!text) continue;
+    const Result<RunState> state = json_fields::read_document<RunState>(*text, "state");
+    if (state) count += std::ssize(state->wanted);
+  }
+  return count;
 }
 
 Result<RunLock> RunLock::take(const Corpus& corpus, const RunRecord& record) {

@@ -2,6 +2,7 @@
 // removed at the end. Work since the last write is repeated, with the same result.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,6 +41,10 @@ Result<Done> keep_state(const Corpus& corpus, const RunState& state);
 // the corpus. Codes state.wrong_format (of another version), state.other_plan, state.other_run, file.*, json.*.
 Result<std::optional<RunState>> load_state(const Corpus& corpus, const RunRecord& record, const std::string& plan);
 void drop_state(const Corpus& corpus, const RunRecord& record);
+
+// Returns the number of failures that stopped runs found and neither shrunk nor stored. `resume` continues with them.
+// States that cannot be read are skipped; load_state reports them.
+std::int64_t unsettled_failures(const Corpus& corpus);
 
 // A lock, so that only one process at a time executes a run. It is held until it is destroyed or the process ends.
 class RunLock {

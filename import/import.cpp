@@ -103,4 +103,10 @@ int count_sources(const Imported& imported, LimitSource source) {
   return count;
 }
 
+int count_too_narrow(const Imported& imported) {
+  int count = 0;
+  for (std::size_t b = 1; b < imported.cut.bones.size(); ++b) count += imported.cut.bones[b].limits.leaves_table ? 1 : 0;
+  return count;
+}
+
 }  // namespace contort

@@ -34,4 +34,7 @@ std::string write_report(const Imported& imported, const std::string& name);
 std::string_view source_name(LimitSource source);
 int count_sources(const Imported& imported, LimitSource source);
 
+// The number of joints with a range from the table of people that the model's own clips leave.
+int count_too_narrow(const Imported& imported);
+
 }  // namespace contort

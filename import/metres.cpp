@@ -102,7 +102,7 @@ double guessed_scale(RiggedFigure& figure, double largest) {
   while (largest * scale < 0.5) scale *= 10.0;
   figure.notes.push_back("The model's largest side is " + number_text(largest) +
                          " units, which are hardly metres: scaled by " + number_text(scale) +
-                         ". --scale or --height-m says it better.");
+                         ". Use --scale or --height-m if that is wrong.");
   return scale;
 }
 

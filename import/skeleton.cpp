@@ -43,7 +43,7 @@ std::vector<int> skeletons_of(const Asset& asset) {
 
 Result<int> choose_skeleton(const SkinnedAsset& asset, const std::vector<int>& skeletons, int wanted_skin) {
   if (asset.asset.skins.empty())
-    return Issue{"import.no_skin", "/skins", "the file has no skin: nothing moves its meshes"};
+    return Issue{"import.no_skin", "/skins", "the file has no skin (mesh bound to joints), so it cannot be imported; contort check can still judge its clips"};
   if (wanted_skin >= static_cast<int>(skeletons.size()))
     return Issue{"import.unknown_skin", "/skins",
                  "found --skin " + std::to_string(wanted_skin) + "; the file has " + std::to_string(skeletons.size())};

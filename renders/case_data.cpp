@@ -56,11 +56,12 @@ Json unjudged_checks_json(const std::vector<NotJudged>& checks) {
   return list;
 }
 
-// The value and the limit of a finding; "" if they do not follow from its margin.
-std::string measured_in(const Character& character, const CheckSettings& settings, const Finding& about) {
+// The value and the limit of a finding in words; "" if there is none.
+std::string measured_in(const Character& character, const CheckSettings& settings, const Finding& about,
+                        bool is_of_program) {
   if (about.first_frame < 0) return "";
-  const auto measured = measured_of(character, settings, about.check, about.subject, about.worst_margin);
-  return measured ? measured_text(about.check, about.unit, *measured) : "";
+  const bool has_own_limit = is_of_program && about.check == "reach_error";
+  return failed_text({about.check, about.subject, about.unit, about.worst_margin, has_own_limit}, &character, settings);
 }
 
 Result<Json> motion_json(const ShownCase& shown, Generator& generator, const CheckSettings& settings) {
@@ -92,7 +93,7 @@ Result<Json> motion_json(const ShownCase& shown, Generator& generator, const Che
               {"spans", spans_json(execution)},
               {"marks", marks_json(execution)},
               {"balance", balance_json(motion)},
-              {"measured", measured_in(character, settings, about)},
+              {"measured", measured_in(character, settings, about, !shown.stored.provenance.generator.empty())},
               {"unmet", unmet_requests_json(execution)},
               {"not_judged", unjudged_checks_json(evaluation->not_judged)},
               {"curves", curves_json(evaluator.curves(about, kMostCurves))}};

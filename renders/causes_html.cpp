@@ -56,8 +56,8 @@ std::string cause_picture(const ReportCause& cause, const std::vector<const Repo
 // The value and the limit of the cause's deepest case, below the headline.
 std::string measured_html(const ReportCause& cause, const std::vector<const ReportRow*>& rows) {
   const auto deepest = std::ranges::find(rows, cause.key, &ReportRow::key);
-  if (deepest == rows.end() || (*deepest)->measured.empty()) return "";
-  return "<span class='worst'>at worst " + html_text((*deepest)->measured) + "</span>";
+  if (deepest == rows.end() || (*deepest)->sentence.empty()) return "";
+  return "<span class='worst'>at worst " + html_text((*deepest)->sentence) + "</span>";
 }
 
 // ---- the unfolded part of a row
@@ -71,9 +71,9 @@ std::string conditions_html(const ReportCause& cause) {
 }
 
 std::string failure_line(const ReportRow& row, const PageFiles& inside) {
-  const std::string worst = row.measured.empty() ? "worst " + margin_text(row.worst_margin, row.unit) : row.measured;
+  const std::string value = value_text(row);
   return "<li>" + case_link(row.key, row.subject, can_be_opened(row, inside)) + " <span class='dim'>" +
-         html_text(check_title(row.check) + "; " + worst + "; " + row.state) + "</span></li>\n";
+         html_text(check_title(row.check) + (value.empty() ? "" : "; ") + value + "; " + row.state) + "</span></li>\n";
 }
 
 std::string failures_of_cause(const std::vector<const ReportRow*>& rows, const PageFiles& inside) {

@@ -14,9 +14,7 @@ namespace {
 constexpr Vec3 kHighlightColor{0.80, 0.035, 0.03};
 // Colour of the second solid of a pair: with red on red, the two could not be told apart.
 constexpr Vec3 kSecondColor{0.86, 0.20, 0.02};
-constexpr Vec3 kMarkerColor{1.0, 0.82, 0.05};
 constexpr Vec3 kSkinColor{0.33, 0.37, 0.42};
-constexpr Vec3 kGhostColor{0.04, 0.042, 0.046};
 constexpr Vec3 kPaleColor{0.80, 0.80, 0.79};
 constexpr double kMarkerRadius_m = 0.038;
 constexpr double kWire = 0.0016;  // radius, as a fraction of the figure's size: about a pixel of a strip's tile

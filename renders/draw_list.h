@@ -68,6 +68,8 @@ Figure make_figure(const Character& character, const Highlight& highlight, bool 
 Vec3 skin_color(int group, bool any_highlight);
 
 // Adds the shape of every collider, which is what checks judge, as wires around the figure.
+inline constexpr Vec3 kMarkerColor{1.0, 0.82, 0.05};  // of a highlighted joint
+inline constexpr Vec3 kGhostColor{0.04, 0.042, 0.046};
 inline constexpr Vec3 kWireColor{0.0, 0.16, 0.75};
 void add_wires(const Character& character, Figure& figure);
 

@@ -41,12 +41,12 @@ void add_case(XMLElement* suite, const ReportRow& row) {
   if (!row.case_file.empty()) set(test, "file", row.case_file);
   if (row.gating) {
     XMLElement* failure = test->InsertNewChildElement("failure");
-    const std::string margin = margin_text(row.worst_margin, row.unit) + " at frame " + std::to_string(row.worst_frame);
+    const std::string value = value_text(row) + " at frame " + std::to_string(row.worst_frame);
     set(failure, "type", row.check);
-    set(failure, "message", row.state + ": " + row.family + ", " + margin);
+    set(failure, "message", row.state + ": " + row.family + ", " + value);
     const std::string since = row.since_base.empty() ? "" : xml_text(row.since_base) + "\n";
     failure->SetText(
-        (xml_text(row.family) + "\n" + xml_text(margin) + "\n" + since + xml_text(row.replay_command)).c_str());
+        (xml_text(row.family) + "\n" + xml_text(value) + "\n" + since + xml_text(row.replay_command)).c_str());
   } else if (row.state != "fixed") {
     set(test->InsertNewChildElement("skipped"), "message", row.note.empty() ? row.state : row.state + ": " + row.note);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "checks/fixed_limits.h"
 #include "model/core/math.h"
 #include "renders/wording.h"
 
@@ -17,7 +18,7 @@ std::string familiar_text(double value, std::string_view unit) {
   if (unit == "of its strength") return rounded_text(100.0 * value) + " %";
   if (unit == "rad") return rounded_text(kDegPerRad * value) + "\xC2\xB0";
   if (unit.starts_with("rad/")) return rounded_text(kDegPerRad * value) + " \xC2\xB0" + std::string(unit.substr(3));
-  return rounded_text(value) + " " + std::string(unit);
+  return rounded_text(value) + (unit.empty() ? "" : " ") + std::string(unit);
 }
 
 // The words around the value.
@@ -36,7 +37,35 @@ std::pair<std::string_view, std::string_view> words_of(std::string_view check, b
   return {"is at ", ""};
 }
 
+// Some margins of this check stand for an event, and are no distance.
+std::string balance_text(double margin) {
+  if (margin <= kFallen_m) return "the figure falls";
+  if (margin == kAirborne_m) return "the figure is off the ground";
+  if (margin == kTipping_m) return "the figure tips over an edge of its feet";
+  return "the balance point is " + familiar_text(-margin, "m") + " outside the area under the feet";
+}
+
+std::string beyond_text(const Failed& failed) {
+  if (std::isnan(failed.margin)) return "is not a number";
+  const std::string excess = familiar_text(-failed.margin, failed.unit);
+  if (failed.check == "joint_range" && failed.subject.ends_with(" swing"))
+    return "bends " + excess + " beyond its swing cone";
+  if (failed.check == "pop") return "jumps " + excess + " faster than its limit and the motion around it allow";
+  if (failed.check == "root_pop") return "jumps " + excess + " farther than the motion around it explains";
+  if (failed.check == "bone_position") return "is " + excess + " outside its region";
+  return "is " + excess + " beyond its limit";
+}
+
 }  // namespace
+
+std::string failed_text(const Failed& failed, const Character* character, const CheckSettings& settings) {
+  if (failed.check == "balance")
+    return balance_text(failed.margin - tolerance_of(settings, failed.check, failed.subject));
+  if (character != nullptr && !failed.has_own_limit)
+    if (const auto measured = measured_of(*character, settings, failed.check, failed.subject, failed.margin))
+      return measured_text(failed.check, failed.unit, *measured);
+  return beyond_text(failed);
+}
 
 std::string measured_text(std::string_view check, std::string_view unit, const Measured& measured) {
   const auto [before, after] = words_of(check, unit.starts_with("m"));

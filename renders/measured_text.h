@@ -12,4 +12,16 @@ namespace contort {
 // that of the check's margins.
 std::string measured_text(std::string_view check, std::string_view unit, const Measured& measured);
 
+// A failure that a sentence is about: the worst margin of a subject.
+struct Failed {
+  std::string_view check, subject, unit;
+  double margin = 0.0;
+  bool has_own_limit = false;  // true: the program under test said how near this one must come
+};
+
+// Returns measured_text() if the character and the margin determine value and limit. Otherwise it says how far beyond
+// its limit the subject is: "bends 73° beyond its swing cone", "the figure falls". Without a character (nullptr) value
+// and limit are unknown.
+std::string failed_text(const Failed& failed, const Character* character, const CheckSettings& settings);
+
 }  // namespace contort

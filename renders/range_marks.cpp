@@ -14,7 +14,6 @@ constexpr double kShare = 0.8;       // radius as a fraction of the limb's lengt
 constexpr double kStep_rad = 0.1;    // step of an arc; 6 degrees look round
 constexpr double kLeastLever = 0.1;  // sine below which a limb lies along its axis
 constexpr int kConeCorners = 64;
-constexpr Vec3 kAllowedColor{0.04, 0.50, 0.09};
 constexpr Vec3 kBeyondColor{0.80, 0.03, 0.03};
 
 // Adds the triangle for both sides, so that it is visible from both.

@@ -12,6 +12,7 @@ namespace contort {
 inline constexpr double kLeastRange_m = 0.08;  // smallest radius of the drawing, which otherwise follows from the
                                                // length of the limb
 inline constexpr double kMostRange_m = 0.35;
+inline constexpr Vec3 kAllowedColor{0.04, 0.50, 0.09};
 
 // Draws, for a hinge, the sector in which the limb may turn, green and translucent, and in red the angle beyond it;
 // for a ball joint, the cone of its swing. Draws nothing for other joints, or if a transform is not finite. `world`:

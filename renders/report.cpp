@@ -1,5 +1,6 @@
 #include "renders/report.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/core/files.h"
@@ -91,6 +92,33 @@ std::string failures_text(const ReportModel& model) {
   return text;
 }
 
+std::string gate_text(const ReportModel& model) {
+  const auto count = [&](auto&& is_wanted) {
+    return std::ranges::count_if(model.rows, [&](const ReportRow& row) { return row.gating && is_wanted(row); });
+  };
+  const std::int64_t failures = count(is_shrunk);
+  const std::int64_t waiting = count([](const ReportRow& row) { return row.state == "waiting"; });
+  if (failures == 0 && waiting == 0) return "nothing fails the build";
+  if (failures == 0)
+    return counted(waiting, "failure that waits to be shrunk fails", "failures that wait to be shrunk fail") +
+           " the build";
+  const std::string text = counted(failures, "failure fails", "failures fail") + " the build";
+  return waiting == 0 ? text : text + ", " + counted(waiting, "more waits", "more wait") + " to be shrunk";
+}
+
+std::string unsettled_text(std::int64_t unsettled) {
+  if (unsettled == 0) return "";
+  return counted(unsettled, "more failure of a stopped run is", "more failures of a stopped run are") +
+         " not shown: repeat its contort fuzz with --resume.";
+}
+
+std::string value_text(const ReportRow& row) {
+  if (!row.sentence.empty() || !row.has_motion) return row.sentence;
+  return "worst " + margin_text(row.worst_margin, row.unit);
+}
+
+bool is_shrunk(const ReportRow& row) { return row.state != "waiting" && row.state != "unconfirmed"; }
+
 namespace {
 
 Json counts_json(const std::map<std::string, std::int64_t>& counts) {
@@ -113,6 +141,7 @@ std::string report_json(const ReportModel& model) {
   for (const ReportCause& cause : model.causes) json["causes"].push_back(cause_json(cause));
   for (const auto& [name, count] : model.tested) json["tested"].push_back({{"name", name}, {"count", count}});
   json["unmet"] = counts_json(model.unmet), json["not_judged"] = counts_json(model.not_judged);
+  if (model.unsettled > 0) json["unsettled"] = model.unsettled;
   if (model.refused > 0) json["refused"] = model.refused, json["refusals"] = Json::array();
   for (const RefusalCount& count : by_frequency(model.refusals))
     json["refusals"].push_back({{"reason", count.text}, {"cases", count.cases}});

@@ -24,6 +24,7 @@ struct ReportRow {
   std::string unit;     // unit of worst_margin
   double worst_margin = 0.0;
   std::string measured;  // value and limit in the worst frame, "turns 3 600 °/s, limit 733 °/s"; "" if unknown
+  std::string sentence;  // the same, or else how far beyond its limit it is, "the figure falls"; "" without a motion
   std::int64_t cases_seen = 0;  // cases of the family, because its buckets can be distinguished only after shrinking
   std::string bucket;           // the bucket's id
   std::string key;              // the name in its files: strips/<key>-*.png, cases/<key>.js
@@ -86,6 +87,7 @@ struct ReportModel {
   bool has_engine = false;          // true: the page plays specs with viewer/engine.js (docs/internals/wasm.md)
   SearchProgress search;            // progress of all runs together
   std::vector<std::pair<std::string, std::int64_t>> tested;  // contents of the cases, and how often; 0: never
+  std::int64_t unsettled = 0;  // failures of runs that were stopped: neither shrunk nor stored, so they have no row
   std::int64_t refused = 0;  // cases that the generator refused, so that nothing was judged
   RefusalCounts refusals{};  // the generator's reasons
   std::map<std::string, std::int64_t> unmet{};       // cases with a request that was not met (RunRecord::unmet)
@@ -96,13 +98,25 @@ struct ReportModel {
 struct RowCounts {
   std::int64_t failures = 0;
   std::int64_t fixed = 0;
-  std::int64_t waiting = 0;      // found when time was up
+  std::int64_t waiting = 0;      // not shrunk yet, as time was up
   std::int64_t unconfirmed = 0;  // seen once
 };
 RowCounts row_counts(const ReportModel& model);
 
 // "12 failures of 3 causes; 1 waits to be shrunk".
 std::string failures_text(const ReportModel& model);
+
+// "3 failures fail the build, 1 more waits to be shrunk"; "nothing fails the build".
+std::string gate_text(const ReportModel& model);
+
+// "15 more failures of a stopped run are not shown: repeat its contort fuzz with --resume."; "" for 0.
+std::string unsettled_text(std::int64_t unsettled);
+
+// Returns the sentence of the row; without one the margin, and "" for a failure without a motion.
+std::string value_text(const ReportRow& row);
+
+// Returns true if the spec of the row is a minimal one, and not the spec as it was drawn.
+bool is_shrunk(const ReportRow& row);
 
 // The files of a page that contains everything, by their paths from it ("viewer/viewer.js", "strips/x.png"), and the
 // data of each case and strip, as "cases/<key>.json" and "strips/x.json".

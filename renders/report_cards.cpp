@@ -86,20 +86,25 @@ std::string short_bucket_html(const ReportRow& row, const PageFiles& inside) {
          "</section>\n";
 }
 
+std::string spec_title(const ReportRow& row) {
+  if (is_shrunk(row)) return term_html("minimal case", "Minimal spec");
+  return row.state == "waiting" ? "Spec as drawn (not shrunk yet)" : "Spec as drawn (not shrunk)";
+}
+
 std::string bucket_html(const ReportRow& row, Room& room, const PageFiles& inside) {
   std::string out = "<section class='bucket'" + place_of(row) + ">\n";
   out += picture_html(row, row.strip, "Film strip", inside);
   if (const std::string clip = html_url(row.clip); !clip.empty() && inside.empty())
     out += "<p><a class='moving' href='" + clip + "'>Moving, at half speed</a></p>\n";
-  out += "<dl class='facts'>\n" + fact("meaning", row.meaning) + fact("measured", row.measured) +
-         fact("worst margin", row.measured.empty() ? margin_text(row.worst_margin, row.unit) : "") + fact("worst at", worst_text(row)) +
+  out += "<dl class='facts'>\n" + fact("meaning", row.meaning) + fact("measured", value_text(row)) +
+         fact("worst at", worst_text(row)) +
          fact("violated in", violated_text(row)) + fact("phase", phase_fact(row)) + fact("cause", row.cause) +
-         fact("needs", row.needs) + fact("comes with", also_fact(row)) +
-         fact("in the base", row.since_base) + fact("it printed", row.printed) + fact("known", row.note) + fact("bucket", row.bucket) + "</dl>\n";
+         fact(is_shrunk(row) ? "needs" : "contains", row.needs) + fact("comes with", also_fact(row)) +
+         fact("in the base", row.since_base) + fact("it printed", row.printed) + fact("status", row.note) + fact("bucket", row.bucket) + "</dl>\n";
   out += open_html(row, inside) + command_html(row.replay_command);
   if (row.spec_json.empty() || row.spec_json.size() > room.spec_bytes) return out + "</section>\n";
   room.spec_bytes -= row.spec_json.size();
-  out += details_html(term_html("minimal case", "Minimal spec"), "<pre tabindex='0'><code>" + html_lines(row.spec_json) + "</code></pre>\n");
+  out += details_html(spec_title(row), "<pre tabindex='0'><code>" + html_lines(row.spec_json) + "</code></pre>\n");
   return out + "</section>\n";
 }
 
@@ -212,9 +217,8 @@ std::string count_of(const FamilyCard& card) {
 
 std::string short_text(const ReportRow& row) {
   const std::string phase = phase_text(row.phase);
-  const std::string worst = row.measured.empty() ? "worst " + margin_text(row.worst_margin, row.unit) + " at "
-                                                 : row.measured + "; worst at ";
-  return worst + worst_text(row) + (phase.empty() ? "" : ", " + phase) + "; needs " + row.needs;
+  const std::string value = value_text(row);
+  return value + (value.empty() ? "" : "; ") + "worst at " + worst_text(row) + (phase.empty() ? "" : ", " + phase) + (is_shrunk(row) ? "; needs " : "; contains ") + row.needs;
 }
 
 bool can_be_opened(const ReportRow& row, const PageFiles& inside) {

@@ -36,6 +36,11 @@ std::string states_text(const std::map<std::string, std::int64_t>& states) {
   return text;
 }
 
+std::string others_text(const std::map<std::string, std::int64_t>& known, std::int64_t unsettled) {
+  const std::string text = known.empty() ? "" : "These do not fail the build: " + states_text(known) + ".";
+  return text + (text.empty() || unsettled == 0 ? "" : " ") + unsettled_text(unsettled);
+}
+
 std::int64_t gating_causes(const ReportModel& model, const std::set<std::string>& gating_buckets) {
   return std::ranges::count_if(model.causes, [&](const ReportCause& cause) {
     return std::ranges::any_of(cause.buckets, [&](const std::string& id) { return gating_buckets.contains(id); });
@@ -51,20 +56,21 @@ Verdict verdict_of(const ReportModel& model) {
   }
   std::int64_t count = 0;
   for (const auto& [state, n] : gating) count += n;
-  const std::string others = known.empty() ? "" : "These do not fail the build: " + states_text(known) + ".";
+  const std::string others = others_text(known, model.unsettled);
   if (count == 0 && model.cases == 0 && model.rows.empty())
     return {"idle", "Nothing was tested", "No case was run, so this says nothing about the animation."};
   if (count == 0 && model.cases == model.refused && model.rows.empty())
     return {"idle", "Nothing was tested",
             "The generator refused every request, so this says nothing about the animation."};
+  if (count == 0 && model.unsettled > 0) return {"idle", "The run was stopped before it was done", others};
   if (count == 0) return {"good", "Nothing fails the build", others.empty() ? "No failure is known." : others};
   const bool all_new = gating.size() == 1 && gating.contains("new");
   const std::int64_t causes = gating_causes(model, gating_buckets);
   std::string detail = causes > 0 ? "By " + counted(causes, "cause", "causes")
                                   : "In " + counted(std::ssize(gating_families), "kind of failure", "kinds of failure");
-  if (!all_new) detail += ": " + states_text(gating);
-  const std::string text = all_new ? counted(count, "new failure", "new failures")
-                                   : counted(count, "failure fails", "failures fail") + " the build";
+  const std::string text = all_new ? counted(count, "new failure", "new failures") : gate_text(model);
+  gating.erase("waiting");  // the title counts them
+  if (!all_new && !gating.empty()) detail += ": " + states_text(gating);
   return {"bad", text, detail + ". " + others};
 }
 
@@ -127,8 +133,8 @@ std::string failures_html(const std::vector<FamilyCard>& cards, const PageFiles&
   if (cards.empty()) return out + "<p class='none'>None.</p>\n</section>\n";
   out += filter_html();
   if (cards.size() > 2)
-    out += "<p class='order'>Failures that nobody has looked at come first. Each next one is as unlike those above it as "
-           "can be, so the first few show most of the kinds.</p>\n";
+    out += "<p class='order'>Failures that nobody has looked at come first. They are sorted for variety, so that the "
+           "first few show most kinds.</p>\n";
   out += shown;
   if (elsewhere > 0)
     out += "<p class='rest' id='rest'>" + html_text(counted(elsewhere, "more failure", "more failures")) +

@@ -37,7 +37,7 @@ Json result_json(const ReportRow& row, int rule) {
   Json result = {{"ruleId", one_line(row.check)},
                  {"ruleIndex", rule},
                  {"level", row.gating ? "error" : "note"},
-                 {"message", text_json(row.state + ": " + row.family + ", " + margin_text(row.worst_margin, row.unit) +
+                 {"message", text_json(row.state + ": " + row.family + ", " + value_text(row) +
                                        " at frame " + std::to_string(row.worst_frame) + since_text(row) + ". " +
                                        row.replay_command)},
                  {"locations", Json::array({location_json(row)})},

@@ -13,23 +13,22 @@ namespace {
 
 constexpr double kWide = 600.0, kHigh = 120.0;  // size of the curve, in its own units
 
-// "1 in 2 500"
-std::string one_in(double share) {
-  return "1 in " + count_text(share > 0.0 ? static_cast<std::int64_t>(std::floor(1.0 / share)) : 0);
+// "2 500": one of so many cases.
+std::string one_of(double share) {
+  return count_text(share > 0.0 ? static_cast<std::int64_t>(std::floor(1.0 / share)) : 0);
 }
 
 constexpr std::int64_t kFewCases = 30;  // with fewer cases nothing can be estimated
 
 std::string what_is_left(const SearchProgress& search) {
-  const std::string odds = one_in(unseen_share(search));
+  const std::string cases = one_of(unseen_share(search));
   if (search.cases < kFewCases) return "These are too few cases to say how many kinds of failure are left.";
   if (search.failing == 0)
-    return "With 95 % confidence, fewer than " + odds + " of the cases that this run draws would.";
+    return "With 95 % confidence, fewer than 1 in " + cases + " of the cases that this run draws would.";
   if (search.lone_cases == 0)
-    return "Each was met by two cases or more, so probably fewer than " + odds +
+    return "Each was met by two cases or more, so probably fewer than 1 in " + cases +
            " further cases would show another one.";
-  return counted(search.lone_cases, "case", "cases") +
-         " showed a kind of failure that no other case showed, so about " + odds + " further cases should show one that none has shown yet.";
+  return "Estimate: one of " + cases + " further cases would show a new kind of failure.";
 }
 
 void add_point(std::string& path, const char* move, double cases, double families, const SearchProgress& search) {

@@ -38,7 +38,7 @@ std::string counts_text(const ReportModel& model, bool gating) {
 
 std::string md_row(const ReportRow& row) {
   return "| " + md_text(row.state) + " | " + md_text(row.check) + " " + md_text(row.subject) + " | " +
-         md_text(margin_text(row.worst_margin, row.unit)) + ", frame " + std::to_string(row.worst_frame) + " | " +
+         md_text(value_text(row)) + ", frame " + std::to_string(row.worst_frame) + " | " +
          std::to_string(row.cases_seen) + " | " + md_code(row.replay_command) + " |\n";
 }
 
@@ -66,14 +66,12 @@ std::string markdown_summary(const ReportModel& model) {
   const std::vector<const ReportRow*> rows = gating_first(model);
   const auto gating =
       static_cast<std::size_t>(std::ranges::count_if(rows, [](const ReportRow* row) { return row->gating; }));
-  std::string out = "## " + md_text(model.title) + ": ";
-  out += gating == 0 ? "nothing fails the build"
-                     : std::to_string(gating) + (gating == 1 ? " failure fails the build" : " failures fail the build");
-  out += "\n\n";
+  std::string out = "## " + md_text(model.title) + ": " + gate_text(model) + "\n\n";
   if (gating > 0) out += md_text(counts_text(model, true)) + ". ";
   const std::string known = counts_text(model, false);
   out += "Known: " + (known.empty() ? "none" : md_text(known)) + ". " + std::to_string(model.cases) + " cases, " +
          std::to_string(model.frames) + " frames.\n";
+  if (model.unsettled > 0) out += "\n" + md_text(unsettled_text(model.unsettled)) + "\n";
   if (gating == 0) return out;
   out += "\n| state | failure | worst | cases | see it again |\n|---|---|---|---|---|\n";
   for (std::size_t i = 0; i < std::min(gating, kMostMarkdownRows); ++i) out += md_row(*rows[i]);
@@ -92,7 +90,7 @@ std::vector<std::string> github_annotations(const ReportModel& model) {
     }
     lines.push_back("::error file=" + command_text(row->case_file, true) +
                     ",title=" + command_text(row->state + " " + row->check, true) +
-                    "::" + command_text(row->family + ", " + margin_text(row->worst_margin, row->unit), false) + "  " +
+                    "::" + command_text(row->family + ", " + value_text(*row), false) + "  " +
                     command_text(row->replay_command, false));
   }
   if (more > 0) lines.push_back("::notice::" + std::to_string(more) + " more");

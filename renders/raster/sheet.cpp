@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "renders/wording.h"
 
@@ -10,6 +11,7 @@ namespace {
 
 constexpr int kHeader = 58;
 constexpr int kCaption = 24;
+constexpr int kLegendLine = 24;
 constexpr int kSheetGap = 2;
 constexpr int kSheetPadding = 12;
 constexpr int kTitleSize = 18;
@@ -29,18 +31,36 @@ std::string range_text(int first, int last) {
                        : "frames " + std::to_string(first) + "\xE2\x80\x93" + std::to_string(last);
 }
 
-std::string title_of(const StripInput& input) {
+// In a narrow strip the end of the title is cut, so that the subject comes first.
+std::string title_of(const StripInput& input, bool is_narrow) {
   if (!input.title.empty() || !input.finding) return input.title.empty() ? input.character.name() : input.title;
-  return input.finding->check + "  " + input.finding->subject;
+  const Finding& f = *input.finding;
+  return is_narrow ? f.subject + "  " + f.check : f.check + "  " + f.subject;
 }
 
 std::string summary_of(const StripInput& input) {
   const Motion& motion = input.motion;
   const Finding* f = input.finding;
   if (!f) return range_text(0, motion.frame_count - 1) + ", " + time_text(motion.frame_count, motion.rate_hz);
-  return "worst " + margin_text(f->worst_margin, f->unit) + " at frame " + std::to_string(f->worst_frame) + ", " +
+  const std::string value = input.measured.empty() ? margin_text(f->worst_margin, f->unit) : input.measured;
+  return value + "; worst at frame " + std::to_string(f->worst_frame) + ", " +
          time_text(f->worst_frame, motion.rate_hz) + "; violated in " + range_text(f->first_frame, f->last_frame) +
          " of " + std::to_string(motion.frame_count);
+}
+
+// Breaks a legend between its entries.
+std::vector<std::string> lines_of(std::string_view legend, std::size_t most) {
+  std::vector<std::string> lines;
+  while (!legend.empty()) {
+    const std::size_t end = std::min(legend.find("; "), legend.size());
+    const std::string entry(legend.substr(0, end));
+    legend.remove_prefix(std::min(end + 2, legend.size()));
+    if (!lines.empty() && lines.back().size() + 2 + entry.size() <= most)
+      lines.back() += "; " + entry;
+    else
+      lines.push_back(entry);
+  }
+  return lines;
 }
 
 struct Caption {
@@ -63,13 +83,17 @@ double Sheet::picture_aspect(const StripInput& input) {
   return static_cast<double>(input.tile_width) / picture_height(input);
 }
 
-Sheet::Sheet(const StripInput& input, int tiles) : input_(input), face_{input.font} {
+Sheet::Sheet(const StripInput& input, int tiles, const std::string& legend) : input_(input), face_{input.font} {
   const int columns = std::min(input.columns, tiles);
   const int rows = (tiles + columns - 1) / columns;
-  image_ =
-      Image(columns * (input.tile_width + kSheetGap) + kSheetGap, kHeader + rows * (input.tile_height + kSheetGap));
+  const int below_tiles = kHeader + rows * (input.tile_height + kSheetGap);
+  const int width = columns * (input.tile_width + kSheetGap) + kSheetGap, room = width - 2 * kSheetPadding;
+  const std::vector<std::string> lines = lines_of(legend, static_cast<std::size_t>(face_.fits(room, kCaptionSize)));
+  image_ = Image(width, below_tiles + static_cast<int>(lines.size()) * kLegendLine);
   fill(image_, 0, 0, image_.width, image_.height, kFrame);
-  write_header();
+  write_header(columns == 1);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    write(kSheetPadding, below_tiles + static_cast<int>(i) * kLegendLine + 16, room, lines[i], kCaptionSize, kDim);
 }
 
 Sheet::Corner Sheet::add_tile(const Image& picture, int frame, bool complete) {
@@ -82,9 +106,9 @@ Sheet::Corner Sheet::add_tile(const Image& picture, int frame, bool complete) {
   return {x, y};
 }
 
-void Sheet::write_header() {
+void Sheet::write_header(bool is_narrow) {
   const int width = image_.width - 2 * kSheetPadding;
-  write(kSheetPadding, 25, width, title_of(input_), kTitleSize, kBright);
+  write(kSheetPadding, 25, width, title_of(input_, is_narrow), kTitleSize, kBright);
   const std::string note = input_.note.empty() ? "" : "; " + input_.note;
   const bool alarms = input_.finding || !note.empty();
   write(kSheetPadding, 47, width, summary_of(input_) + note, kTextSize, alarms ? kAlarm : kDim);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "renders/image.h"
@@ -12,7 +13,8 @@ namespace contort {
 
 class Sheet {
  public:
-  Sheet(const StripInput& input, int tiles);
+  // `legend`: a line below the tiles; "" for none.
+  Sheet(const StripInput& input, int tiles, const std::string& legend = "");
 
   int picture_width() const { return input_.tile_width; }
   int picture_height() const { return picture_height(input_); }
@@ -30,7 +32,7 @@ class Sheet {
 
  private:
   static int picture_height(const StripInput& input);
-  void write_header();
+  void write_header(bool is_narrow);
   void write_caption(int x, int y, int frame, bool complete);
   void write(int x, int y, int width, std::string_view text, int size, Rgb8 color);
 

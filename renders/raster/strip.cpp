@@ -4,6 +4,7 @@
 
 #include "model/core/output.h"
 #include "renders/frames.h"
+#include "renders/legend.h"
 #include "renders/raster/auto_camera.h"
 #include "renders/raster/picture.h"
 #include "renders/raster/renderer.h"
@@ -42,12 +43,14 @@ struct Plan {
   View view;
   StripCamera camera;
   int visible_pixels = 0;
+  std::string legend{};  // of all pictures; "" for none
 };
 
 Plan plan_strip(const StripInput& input, const std::vector<int>& frames) {
   const Story story = story_of(input);
   Plan plan{take_shots(story, frames), {}, {}, 0};
   add_scenery(story, plan.shots.outlines, plan.shots);
+  plan.legend = legend_of(story, plan.shots.lists);
   return plan;
 }
 
@@ -78,7 +81,7 @@ struct Tiles {
 Result<Image> draw_tiles(Renderer& renderer, const StripInput& input, const Plan& plan, const Tiles& tiles,
                          StripDone& done) {
   const Shots& shots = plan.shots;
-  Sheet sheet(input, static_cast<int>(tiles.count));
+  Sheet sheet(input, static_cast<int>(tiles.count), plan.legend);
   for (std::size_t i = tiles.first; i < tiles.first + tiles.count; ++i) {
     const Camera camera = plan.camera.at(shots.anchors[i]);
     const Result<Image> picture = renderer.draw(shots.lists[i], camera, sheet.picture_width(), sheet.picture_height());
@@ -155,6 +158,7 @@ Result<Image> StripRenderer::render_tile(const StripInput& whole) {
   input.frames = {input.finding ? input.finding->worst_frame : input.motion.frame_count / 2};
   if (Result<Done> fine = check_input(input); !fine) return fine.issue();
   Plan plan = plan_strip(input, input.frames);
+  plan.legend.clear();  // the pictures of a contact sheet have one size
   state_->renderer->set_meshes(plan.shots.meshes);
   if (Result<Done> chosen = choose_camera(*state_->renderer, input, Sheet::picture_aspect(input), plan); !chosen)
     return chosen.issue();

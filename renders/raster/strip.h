@@ -27,6 +27,7 @@ struct StripInput {
   const Motion& motion;              // A motion of this character.
   const Finding* finding = nullptr;  // Null: frames are evenly spaced and nothing is highlighted.
   std::string title{};               // "" for the finding's check and subject.
+  std::string measured{};            // The finding's value and limit in words; "" for its margin.
   std::string note{};                // Shown prominently after the line of numbers; "" for none.
   std::string replay_command{};      // Stored in the PNG as "Comment".
   int tile_width = 320;              // Pixels, with the caption; in [96, 2048].

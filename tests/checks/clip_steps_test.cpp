@@ -91,7 +91,7 @@ TEST(TranslationPop, NamesTheKeyThatIsOffAndItsSpeed) {
   EXPECT_EQ(found[0].first_frame, 4);
   EXPECT_EQ(found[0].last_frame, 4);
   EXPECT_NEAR(found[0].t1_s, 4.0 / 30.0, 1e-12);
-  EXPECT_TRUE(found[0].what.find("0.300 m in one step (9.0 m/s)") != found[0].what.npos) << found[0].what;
+  EXPECT_TRUE(found[0].what.find("0.300 m between two keys (9.0 m/s)") != found[0].what.npos) << found[0].what;
 }
 
 TEST(TranslationPop, AWalkAndAStrideAreQuiet) {

@@ -84,7 +84,7 @@ TEST(CheckNotJudged, WhatTheSettingsIgnoreIsNotJudged) {
   CheckSettings settings;
   settings.limits = {{"self_collision", "*", "", LimitUse::ignore, 0.0, "r"}};
   EXPECT_EQ(reason_of(still_small(), "self_collision"), "judged") << "though nothing is near enough to have a margin";
-  EXPECT_EQ(reason_of(still_small(), "self_collision", settings), "no two bodies are judged as a pair");
+  EXPECT_EQ(reason_of(still_small(), "self_collision", settings), "no two bodies can collide: they are neighbours, or touch at rest");
 }
 
 TEST(CheckNotJudged, OneCheckAloneTellsOfItselfAlone) {

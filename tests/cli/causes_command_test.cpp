@@ -31,7 +31,7 @@ class CausesCommand : public ::testing::Test {
 TEST_F(CausesCommand, ARunEndsWithAVerdictAndItsCausesWithinFortyLines) {
   const Ran ran = fuzz(folder_ / "c", 12);
   EXPECT_LE(std::ranges::count(ran.out, '\n'), 40) << ran.out;
-  EXPECT_TRUE(ran.out.starts_with("0.0 % of 1 case is clean; 1 fails, by ")) << ran.out;
+  EXPECT_TRUE(ran.out.starts_with("0.0 % of 1 case is clean; 1 case fails, by ")) << ran.out;
   EXPECT_NE(ran.out.find("\n1.  NEW   "), std::string::npos) << ran.out;
   EXPECT_NE(ran.out.find("  contort replay /"), std::string::npos) << "commands have absolute paths: " << ran.out;
   const Ran again = fuzz(folder_ / "c", 12);
@@ -84,7 +84,7 @@ TEST_F(CausesCommand, AreNotClaimedOfFailuresWithoutABucket) {
   const Ran ran = contort_program({"fuzz", "--profile", "stress", "--character", "human", "--seed", "12", "--cases", "2",
                                    "--shrink-evaluations", "1", "--shrinks-per-case", "1", "--shard", "0/2", "--corpus",
                                    folder_ / "shard"});
-  EXPECT_TRUE(ran.out.starts_with("0.0 % of 2 cases are clean; 2 fail; none has a smallest case yet, so no cause is known.\n"))
+  EXPECT_TRUE(ran.out.starts_with("0.0 % of 2 cases are clean; 2 cases fail; none has a smallest case yet, so no cause is known.\n"))
       << ran.out << ran.err;
 }
 

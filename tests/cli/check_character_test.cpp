@@ -40,6 +40,7 @@ TEST_F(CheckCharacter, AClipIsJudgedByEveryCheckThatAppliesAndTheVerdictSaysSo) 
   EXPECT_TRUE(tells_of(ran.out, " limits, 20 frames")) << ran.out;
   EXPECT_TRUE(tells_of(ran.out, "\n  reach_error could not judge: nothing says what the motion was meant to do "))
       << ran.out;
+  EXPECT_TRUE(tells_of(ran.out, "\n  Only for external generators (--generator): off_axis, root_pop, ")) << ran.out;
   EXPECT_TRUE(tells_of(ran.out, "\n  tracking_error could not judge: the motion has no dynamics\n")) << ran.out;
   const Ran as_json = contort_program({"check", folder_ / "calm.glb", "--character", "human", "--json"});
   const Json clip = Json::parse(as_json.out)["clips"][0];
@@ -58,8 +59,8 @@ TEST_F(CheckCharacter, FindingsOfTheFileAndOfTheMotionAreInOneList) {
   const std::string file = bent("bent.glb", {{10, high}, {11, high}, {12, high}, {13, high}});
   const Ran ran = contort_program({"check", file, "--character", "human"});
   EXPECT_EQ(ran.code, 1) << ran.err;
-  EXPECT_TRUE(tells_of(ran.out, "  joint_range  arm_left/elbow max  -0.05")) << ran.out;
-  EXPECT_TRUE(tells_of(ran.out, "\u00B0)  frames 10-13, worst 1")) << ran.out;
+  EXPECT_TRUE(tells_of(ran.out, "  joint_range  arm_left/elbow max  is at ")) << ran.out;
+  EXPECT_TRUE(tells_of(ran.out, "\u00B0  frames 10-13, worst 1")) << ran.out;
   EXPECT_EQ(contort_program({"check", file}).code, 0) << "nothing of that shows without a character";
 }
 

@@ -71,7 +71,8 @@ TEST_F(ContactsCommand, RefusesWhatIsNeitherACharacterNorAFile) {
   const Ran ran = contort_program({"contacts", "nobody"});
   EXPECT_EQ(ran.code, 2);
   EXPECT_EQ(ran.err,
-            "contort: character.unknown_character: \"nobody\" is no character (contort list characters) and no file\n");
+            "contort: character.unknown_character: \"nobody\" is no character (contort list characters) and no file; "
+            "characters of your own need --library FOLDER\n");
   EXPECT_EQ(contort_program({"contacts", "human", "--poses", "-1"}).code, 2);
   EXPECT_EQ(contort_program({"contacts", "human", "-o", (folder_ / "no") + "/x.json"}).code, 3);
 }

@@ -97,7 +97,7 @@ TEST_F(StoredCorpus, ListShowsWhatIsAskedFor) {
 TEST_F(StoredCorpus, ListNamesTheCauseOfEachFailure) {
   const std::string text = corpus("list").out;
   const std::string cause = Json::parse(corpus("list", {"--json"}).out).at(0).at("cause").get<std::string>();
-  EXPECT_TRUE(text.starts_with("1. ") && says(text, "leaves its range") && says(text, "\n    cause " + cause + "\n"));
+  EXPECT_TRUE(text.starts_with("1. ") && says(text, "elbow leave their range") && says(text, "\n    cause " + cause + "\n"));
   EXPECT_TRUE(says(text, left().id + "  joint_range of " + kElbow + ", human, fails the build\n")) << text;
   EXPECT_TRUE(says(corpus("show", {left().id}).out, cause + ": "));
 }

@@ -98,6 +98,7 @@ TEST_F(Usage, AMisspelledNameIsToldTheNearest) {
   expect_refused({"fuzz", "--character", "mehc", "--corpus", folder_ / "corpus"}, 2, "did you mean \"mech\"?");
   expect_refused({"fuzz", "--profile", "nightyl", "--corpus", folder_ / "corpus"}, 2, "did you mean \"nightly\"?");
   expect_refused({"contacts", "humna"}, 2, "did you mean \"human\"?");
+  expect_refused({"contacts", "fox"}, 2, "; characters of your own need --library FOLDER");
   const auto with = [&](const std::string& what, const std::string& instead) {
     std::string text = pretty_spec(bent_elbow(190));
     text.replace(text.find(what), what.size(), instead);
@@ -131,9 +132,10 @@ TEST_F(Usage, AFileOfAnotherKindIsCalledThat) {
   expect_refused({"check", zip}, 2, "gltf.wrong_kind: " + zip + " is a ZIP archive");
   expect_refused({"import", zip, "-o", folder_ / "figures"}, 2, zip + " is a ZIP archive");
   expect_refused({"check", file("a.bvh", "Kaydara FBX Binary")}, 2, "a.bvh is an FBX model");
-  expect_refused({"replay", file("b.json", "HIERARCHY\nROOT a")}, 2, "b.json is a BVH animation");
-  // The contents decide, not the name.
-  expect_refused({"check", file("b.json", "HIERARCHY\nROOT a")}, 2, "bvh.truncated");
+  const std::string bvh = file("b.json", "HIERARCHY\nROOT a");
+  expect_refused({"replay", bvh}, 2, "b.json is a BVH animation");
+  expect_refused({"render", bvh, "-o", folder_ / "x.png"}, 2, "; for pictures of clips: contort check " + bvh + " --report DIR");
+  expect_refused({"check", file("b.json", "HIERARCHY\nROOT a")}, 2, "bvh.truncated");  // what it holds counts
   expect_refused({"check", file("c.json", R"({"asset": {"version": "2.0"}})")}, 2, "c.json holds no animation");
   expect_refused({"check", file("d.urdf", "<robot name=\"a\"/>")}, 2, "d.urdf is a robot in URDF");
   expect_refused({"check", file("e.npz", "import numpy")}, 2, "e.npz is named like NumPy arrays (NPZ)");

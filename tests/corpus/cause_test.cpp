@@ -44,6 +44,35 @@ TEST(Cause, HeadlinesAreSentences) {
             "Hand goes through an obstacle during walk");
 }
 
+TEST(Cause, HeadlinesSayASideOnce) {
+  EXPECT_EQ(failure_in_words("foot_slide", "foot_right/ball_r"), "Right ball slides on the ground");
+  EXPECT_EQ(failure_in_words("foot_slide", "foot_left/toe.L"), "Left toe slides on the ground");
+  EXPECT_EQ(failure_in_words("joint_range", "leg_left/LeftFoot swing"), "LeftFoot swing leaves its range");
+  EXPECT_EQ(failure_in_words("joint_range", "hand_right/ring_02_r swing"), "Right ring 02 swing leaves its range");
+  EXPECT_EQ(failure_in_words("joint_range", "tail/ring_02_r swing"), "Ring 02 r swing leaves its range");
+}
+
+TEST(Cause, HeadlinesOfSeveralPlacesNameThem) {
+  const auto headline = [](std::string_view check, std::vector<std::string> subjects) {
+    return cause_headline(cause_by(CauseScope::alone, {"track"}), check, subjects, nullptr);
+  };
+  EXPECT_EQ(headline("angular_velocity", {"body/pan", "body/tilt"}), "Pan and tilt turn too fast during track");
+  EXPECT_EQ(headline("joint_range", {"arm_left/elbow min", "arm_left/elbow max"}),
+            "Left elbow leaves its range during track");
+  EXPECT_EQ(headline("mimic_error", {"a/b", "a/c", "a/d", "a/e"}),
+            "B, c and 2 others do not follow their leading joint during track");
+  EXPECT_EQ(headline("self_collision", {"arm_left/hand ~ leg_right/thigh", "arm_right/hand ~ leg_left/thigh"}),
+            "Left hand goes through right thigh (and 1 other pair) during track");
+}
+
+TEST(Cause, HeadlinesTellASlopeFromUnevenGround) {
+  const std::string subject = "foot_left/foot";
+  EnvironmentDesc slope;
+  slope.ground = SlopeGround{};
+  EXPECT_EQ(cause_headline(cause_by(CauseScope::setting, {"ground"}), "ground_penetration", std::span(&subject, 1), &slope),
+            "Left foot sinks into the ground on a slope");
+}
+
 TEST(Cause, IdsDependOnWhatExplainsAFailureAndOnNothingElse) {
   const Cause aim = cause_by(CauseScope::alone, {"aim"});
   Cause with_others = aim;

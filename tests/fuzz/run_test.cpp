@@ -195,6 +195,18 @@ TEST_F(Runs, ResumedWithOtherOptionsAreRefused) {
   EXPECT_EQ(refused.record.cases, 0);
 }
 
+TEST_F(Runs, ThatAreStoppedTellHowManyFailuresTheyLeave) {
+  const Corpus corpus = create(folder_ / "corpus");
+  EXPECT_EQ(unsettled_failures(corpus), 0);
+  bool has_failure = false;
+  const RunResult stopped = run_fuzz(
+      config_of(100000, 2), generator(), corpus, [&](const RunProgress& p) { has_failure |= p.shrinking > 0; },
+      [&] { return has_failure; });
+  ASSERT_TRUE(stopped.interrupted);
+  EXPECT_GT(stopped.unsettled, 0);
+  EXPECT_EQ(unsettled_failures(corpus), stopped.unsettled);
+}
+
 TEST_F(Runs, OfTheSameNameDoNotRunTwiceAtATime) {
   const Corpus corpus = create(folder_ / "corpus");
   const RunConfig config = config_of(8, 1);

@@ -13,20 +13,23 @@ namespace {
 using fixtures::imported;
 using fixtures::part_in;
 
-// A worm's second joint in these poses, one per second.
-Imported worm_that_turns(const std::vector<Quat>& poses) {
-  fixtures::GlbBuilder b = fixtures::rigged(fixtures::worm(3));
+// One bone of a model in those poses, once a second.
+Imported model_that_turns(const std::vector<fixtures::RiggedBone>& bones, int node, const std::vector<Quat>& poses) {
+  fixtures::GlbBuilder b = fixtures::rigged(bones);
   std::vector<float> times, values;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     times.push_back(static_cast<float>(i));
     for (const double v : {poses[i].x, poses[i].y, poses[i].z, poses[i].w}) values.push_back(static_cast<float>(v));
   }
   b.root["animations"] = {{{"name", "turn"}}};
-  b.add_channel(0, 2, "rotation", b.add_scalars(times), b.add_vec4(values), "STEP");
+  b.add_channel(0, node, "rotation", b.add_scalars(times), b.add_vec4(values), "STEP");
   const Result<Imported> in = imported(b);
   EXPECT_TRUE(in.ok());
   return *in;
 }
+
+// A worm's second joint.
+Imported worm_that_turns(const std::vector<Quat>& poses) { return model_that_turns(fixtures::worm(3), 2, poses); }
 
 std::vector<Finding> judged(const Imported& in, const std::vector<Quat>& poses) {
   const Result<Character> character = fixtures::character_of(in);
@@ -66,6 +69,13 @@ TEST(ImportedLimits, AreNotMuchWiderThanTheClips) {
   EXPECT_FALSE(judged(in, {bent(-6)}).empty());
   EXPECT_EQ(count_sources(in, LimitSource::clips), 1);
   EXPECT_EQ(count_sources(in, LimitSource::generic), 1);  // the third joint never moves
+}
+
+TEST(ImportedLimits, OfPeopleThatAreTooNarrowForTheOwnClipsAreCounted) {
+  constexpr int kLeftForearm = 6;  // its node
+  const auto bent = [](double deg) { return axis_angle(Vec3(0, 1, 0), -deg * kRadPerDeg); };
+  EXPECT_EQ(count_too_narrow(model_that_turns(fixtures::person(), kLeftForearm, {bent(0), bent(90)})), 0);
+  EXPECT_EQ(count_too_narrow(model_that_turns(fixtures::person(), kLeftForearm, {bent(0), bent(175)})), 1);
 }
 
 TEST(ImportedLimits, WithoutClipsAreGeneric) {

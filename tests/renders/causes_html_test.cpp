@@ -91,7 +91,7 @@ ReportModel model_with_strip() {
   ReportRow row = row_in("a", true);
   row.key = "key-1", row.strip = "strips/key-1.png", row.subject = kMarkupInCause;
   row.first_frame = 11, row.worst_frame = 24, row.last_frame = 31, row.frame_count = 32;
-  row.measured = "is at 120, limit 90", row.replay_command = "contort replay a";
+  row.measured = row.sentence = "is at 120, limit 90", row.replay_command = "contort replay a";
   model.rows = {row, row_in("b", true)};
   return model;
 }

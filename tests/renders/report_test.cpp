@@ -78,7 +78,7 @@ TEST(Report, SaysHowFarTheSearchGot) {
   model.search.met_once = 7, model.search.lone_cases = 2;
   const std::string html = report_html(model);
   EXPECT_TRUE(contains(html, "met after 1\u202F500 of 3\u202F000 cases"));
-  EXPECT_TRUE(contains(html, "2 cases showed a kind of failure that no other case showed, so about 1 in 1\u202F500 further cases"));
+  EXPECT_TRUE(contains(html, "Estimate: one of 1\u202F500 further cases would show a new kind of failure."));
   EXPECT_FALSE(contains(html, "Guided"));
   model.search.arms = {{"guided", 5, 0, 0}};
   EXPECT_TRUE(contains(report_html(model), "Guided cases follow others"));
