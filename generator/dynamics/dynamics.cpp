@@ -33,6 +33,38 @@ void start_at_root(std::span<const double> velocity, std::span<const double> acc
                              up - glm::cross(angular, linear)};
 }
 
+// The motion of a link about the root's origin.
+struct Carried {
+  SpatialMotion velocity;
+  SpatialMotion acceleration;
+};
+
+// The motion of a link without accelerations of any degree of freedom, as the recursion of inverse_dynamics has it.
+Carried carried_to(const Multibody& body, const DynamicsScratch& scratch, int i, std::span<const double> velocity) {
+  if (i == 0) {
+    const Vec3 angular = scratch.world[0].rotation * Vec3(velocity[3], velocity[4], velocity[5]);
+    const Vec3 linear(velocity[0], velocity[1], velocity[2]);
+    return {{angular, linear}, {Vec3(0.0), -glm::cross(angular, linear)}};
+  }
+  const Link& link = body.links()[at(i)];
+  Carried motion = carried_to(body, scratch, link.parent, velocity);
+  SpatialMotion rate;
+  for (std::size_t k = at(link.dof); k < at(link.dof + link.dof_count); ++k)
+    rate += velocity[k] * scratch.freedoms[k];
+  motion.velocity += rate;
+  const SpatialMotion& v = motion.velocity;
+  motion.acceleration += {glm::cross(v.angular.narrow(), rate.angular.narrow()),
+                          glm::cross(v.angular.narrow(), rate.linear.narrow()) +
+                              glm::cross(v.linear.narrow(), rate.angular.narrow())};
+  return motion;
+}
+
+Vec3 acceleration_of_point(const Carried& link, const Vec3& from_root_m) {
+  const SpatialMotion &v = link.velocity, &a = link.acceleration;
+  return a.linear + glm::cross(a.angular.narrow(), from_root_m) +
+         glm::cross(v.angular.narrow(), point_velocity(v, from_root_m));
+}
+
 Quat moved_on(const Quat& q, const Vec3& rate, double time_s) {
   return glm::normalize(q * from_rotation_vector(rate * time_s));
 }
@@ -146,11 +178,14 @@ void angular_jacobian(const Multibody& body, const DynamicsScratch& scratch, int
 }
 
 Vec3 point_acceleration(const DynamicsScratch& scratch, int link, const Vec3& point_world_m) {
-  const SpatialMotion& v = scratch.velocity[at(link)];
-  const SpatialMotion& a = scratch.acceleration[at(link)];
-  const Vec3 from_root_m = point_world_m - scratch.world[0].origin_m;
-  const Vec3 speed = point_velocity(v, from_root_m);
-  return a.linear + glm::cross(a.angular, from_root_m) + glm::cross(v.angular, speed);
+  return acceleration_of_point({scratch.velocity[at(link)], scratch.acceleration[at(link)]},
+                               point_world_m - scratch.world[0].origin_m);
+}
+
+SpatialMotion carried_acceleration(const Multibody& body, const DynamicsScratch& scratch, int link,
+                                   const Vec3& point_world_m, std::span<const double> velocity) {
+  const Carried carried = carried_to(body, scratch, link, velocity);
+  return {carried.acceleration.angular, acceleration_of_point(carried, point_world_m - scratch.world[0].origin_m)};
 }
 
 void integrate(const Multibody& body, std::span<const double> velocity, double time_s, Rigid& world_from_root,

@@ -78,6 +78,11 @@ void angular_jacobian(const Multibody& body, const DynamicsScratch& scratch, int
 // it is the part that depends on the present velocities alone: dJ/dt v.
 Vec3 point_acceleration(const DynamicsScratch& scratch, int link, const Vec3& point_world_m);
 
+// The acceleration that velocities alone cause at a point of a link, dJ/dt v: rad/s^2, and m/s^2 of the point (world).
+// After place(); the velocities may be any.
+SpatialMotion carried_acceleration(const Multibody& body, const DynamicsScratch& scratch, int link,
+                                   const Vec3& point_world_m, std::span<const double> velocity);
+
 // Moves a pose by generalised velocities over a time: the root's and balls' rotations by the exponential map.
 void integrate(const Multibody& body, std::span<const double> velocity, double time_s, Rigid& world_from_root,
                std::span<double> coords);

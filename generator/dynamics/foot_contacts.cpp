@@ -153,10 +153,11 @@ void FootContacts::ask_less(int index, double share, std::span<const double> acc
     support_.wanted[r] = moved[r] + share * (support_.wanted[r] - moved[r]);
 }
 
-void FootContacts::find_rows(EquationOfMotion& equation) {
+void FootContacts::find_rows(EquationOfMotion& equation, std::span<const double> tracked) {
   equation.find_bias();
-  support_rows(equation.body(), led_, equation.state.velocity, kFootStiffness, kGravity_m_s2, equation.dynamics,
-               support_);
+  middle_ = equation.state.velocity;
+  add_scaled(0.5 * tick_s_, tracked, middle_);
+  support_rows(equation.body(), led_, middle_, kFootStiffness, 0.5 * tick_s_, equation.dynamics, support_);
   prepare_projection(ease_, support_);
 }
 

@@ -42,8 +42,8 @@ class FootContacts {
   // The mean horizontal distance of standing soles from the plan's places, m.
   Vec3 shift_m() const;
 
-  // Finds the conditions of guided soles, with the equation's bias.
-  void find_rows(EquationOfMotion& equation);
+  // Finds the conditions of guided soles, with the equation's bias. `tracked`: the accelerations that joints want.
+  void find_rows(EquationOfMotion& equation, std::span<const double> tracked);
   // The sole in the air whose leg has this degree of freedom; -1 for others.
   int swinging(int dof) const;
   void ask_less(int sole, double share, std::span<const double> acceleration);
@@ -79,6 +79,7 @@ class FootContacts {
   std::vector<Rigid> offsets_;         // by sole: transform from the plan's places to those of this figure
   std::vector<LedSole> led_;
   std::vector<double> passive_, moved_;  // scratch of ask_less
+  std::vector<double> middle_;           // velocities of the present, for find_rows
   SupportRows support_;
   ResponseScratch response_;
   std::vector<double> change_;  // scratch of stop

@@ -105,7 +105,7 @@ class Simulation {
   // Tracking alone stands on ground that gives whatever the soles need, also in a blow.
   void hold_soles() {
     if (!s_.contacts.has_soles()) return;
-    s_.contacts.find_rows(s_.equation);
+    s_.contacts.find_rows(s_.equation, s_.equation.still);
     s_.contacts.stop(s_.equation);
   }
 
@@ -145,7 +145,7 @@ class Simulation {
   // that is to fold through itself) are let go.
   void follow() {
     std::vector<double>& acceleration = s_.actuation.acceleration;
-    s_.contacts.find_rows(s_.equation);
+    s_.contacts.find_rows(s_.equation, s_.tracked);
     acceleration = s_.tracked;
     s_.contacts.keep(acceleration);
     if (!s_.contacts.feet().none() && races(body_, figure_.fastest, state_.velocity, acceleration, tick_s_)) {
@@ -176,7 +176,7 @@ class Simulation {
     s_.equation.find_bias();
     if (!s_.contacts.land_flat(frame_time_, s_.equation.dynamics)) return;
     s_.velocity_before = state_.velocity;
-    s_.contacts.find_rows(s_.equation);
+    s_.contacts.find_rows(s_.equation, s_.equation.still);
     s_.equation.find_factors();
     s_.contacts.stop(s_.equation);
     if (s_.standing.could_stand(s_.equation, s_.contacts)) return s_.loose.take_hold();

@@ -50,7 +50,7 @@ Balance Standing::balance(const EquationOfMotion& equation, std::span<const doub
 
 bool Standing::stand(EquationOfMotion& equation, FootContacts& contacts, std::span<const double> wanted,
                      Recorder& record, Actuation& actuation) {
-  contacts.find_rows(equation);
+  contacts.find_rows(equation, wanted);
   bool is_strong = false, can_try = true;
   zmp_m_ = Vec3(0.0), has_zmp_ = false, spared_.clear(), asked_ = 0;
   ease_.assign(contacts.ease().begin(), contacts.ease().end());

@@ -22,20 +22,20 @@ void add_foot(const Multibody& body, const LedSole& foot, const Vec3& sole_m, in
   }
 }
 
-// Wanted accelerations: those that the present velocities cause taken back, and the springs.
-void want_to_follow(const LedSole& foot, const Vec3& sole_m, double frequency, const Vec3& up_m_s2,
-                    const DynamicsScratch& dynamics, double* wanted) {
+// Wanted accelerations: those of the plan without those that velocities cause (`carried`), and the springs. The plan's
+// rates are those of the middle of the last tick, `late_s` ago. The present pose moves with rates that are as old.
+void want_to_follow(const LedSole& foot, const Vec3& sole_m, double frequency, const SpatialMotion& carried,
+                    double late_s, const DynamicsScratch& dynamics, double* wanted) {
   const Placement& link = dynamics.world[at(foot.link)];
   const SpatialMotion& v = dynamics.velocity[at(foot.link)];
   const Quat now = glm::quat_cast(Mat3(link.rotation)) * foot.link_from_sole.q;
   const Rigid& wanted_pose = foot.wanted.world_from_sole;
   const Vec3 off[2] = {sole_m - wanted_pose.p_m, to_rotation_vector(now * glm::conjugate(wanted_pose.q))};
-  const Vec3 speed[2] = {point_velocity(v, sole_m - dynamics.world[0].origin_m) - foot.wanted.linear,
-                         v.angular - foot.wanted.angular};
   const Vec3 ahead[2] = {foot.linear_m_s2, foot.angular_rad_s2};
-  // Gravity is in the accelerations as one of the world.
-  const Vec3 bias[2] = {point_acceleration(dynamics, foot.link, sole_m) - up_m_s2,
-                        dynamics.acceleration[at(foot.link)].angular};
+  const Vec3 bias[2] = {carried.linear, carried.angular};
+  const Vec3 speed[2] = {
+      point_velocity(v, sole_m - dynamics.world[0].origin_m) - late_s * bias[0] - foot.wanted.linear,
+      v.angular - late_s * bias[1] - foot.wanted.angular};
   for (int r = 0; r < 6; ++r) {
     const int part = r / 3, k = r % 3;
     wanted[r] =
@@ -62,7 +62,7 @@ void project(std::span<const double> ease, std::span<const double> wanted, Suppo
 }  // namespace
 
 void support_rows(const Multibody& body, std::span<const LedSole> feet, std::span<const double> velocity,
-                  double frequency_rad_s, double gravity_m_s2, const DynamicsScratch& dynamics, SupportRows& support) {
+                  double frequency_rad_s, double late_s, const DynamicsScratch& dynamics, SupportRows& support) {
   support.count = 6 * static_cast<int>(feet.size());
   support.columns.assign(velocity.size() * at(support.count), 0.0);
   support.wanted.resize(at(support.count));
@@ -70,7 +70,8 @@ void support_rows(const Multibody& body, std::span<const LedSole> feet, std::spa
     const Placement& link = dynamics.world[at(feet[f].link)];
     const Vec3 sole_m = link.origin_m + link.rotation * feet[f].link_from_sole.p_m;
     add_foot(body, feet[f], sole_m, static_cast<int>(6 * f), dynamics, support);
-    want_to_follow(feet[f], sole_m, frequency_rad_s, Vec3(0.0, gravity_m_s2, 0.0), dynamics, &support.wanted[6 * f]);
+    const SpatialMotion carried = carried_acceleration(body, dynamics, feet[f].link, sole_m, velocity);
+    want_to_follow(feet[f], sole_m, frequency_rad_s, carried, late_s, dynamics, &support.wanted[6 * f]);
   }
   support.dofs.clear();
   for (int dof = 0; dof < body.dof_count(); ++dof)

@@ -41,11 +41,12 @@ struct SupportRows {
   }
 };
 
-// The rows at the pose and velocities of an inverse_dynamics with acceleration 0 and this gravity. Soles that are off
-// their place return as by a critically damped spring of this frequency (J. Baumgarte, "Stabilization of constraints
-// and integrals of motion in dynamical systems", 1972).
+// The rows at the pose and velocities of an inverse_dynamics. Soles that are off their place return as by a critically
+// damped spring of this frequency (J. Baumgarte, "Stabilization of constraints and integrals of motion in dynamical
+// systems", 1972). Rates of semi-implicit Euler are half a tick old (`late_s`), and `velocity` is that of the present.
+// Without this distinction a foot that swings fast comes centimetres off its path.
 void support_rows(const Multibody& body, std::span<const LedSole> feet, std::span<const double> velocity,
-                  double frequency_rad_s, double gravity_m_s2, const DynamicsScratch& dynamics, SupportRows& support);
+                  double frequency_rad_s, double late_s, const DynamicsScratch& dynamics, SupportRows& support);
 
 // Computes out = J x.
 void soles_moved_by(const SupportRows& support, std::span<const double> x, std::span<double> out);

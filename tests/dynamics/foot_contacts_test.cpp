@@ -50,7 +50,7 @@ struct StandingHuman {
   void land() {
     contacts.lead_all();
     follow(0);
-    contacts.find_rows(equation);
+    contacts.find_rows(equation, equation.still);
   }
   // The greatest speed of a guided sole in the directions of its rows.
   double sole_speed() {
@@ -134,7 +134,7 @@ TEST(FootContacts, ASoleInTheAirIsLedAsInThePlan) {
   StandingHuman human;
   human.contacts.lead_all();
   human.follow(2);
-  human.contacts.find_rows(human.equation);
+  human.contacts.find_rows(human.equation, human.equation.still);
   EXPECT_EQ(human.contacts.support().count, 12);
   EXPECT_EQ(human.contacts.swinging(human.figure.soles[1].leg_dofs[0]), 1);
   EXPECT_EQ(human.contacts.swinging(human.figure.soles[0].leg_dofs[0]), -1);

@@ -28,7 +28,7 @@ struct Leaning {
     equation.find_mass();
     contacts.lead_all();
     contacts.follow_plan(0.0, equation.dynamics);
-    contacts.find_rows(equation);
+    contacts.find_rows(equation, equation.still);
     actuation.assign(equation.size());
     for (std::size_t k = kRootDofs; k < equation.size(); ++k) actuation.acceleration[k] = k % 2 == 0 ? 9.0 : -4.0;
     contacts.keep(actuation.acceleration);
@@ -71,7 +71,7 @@ TEST(GroundRows, TheZeroMomentPointIsPutWhereItShallBeAndSolesStay) {
 TEST(GroundRows, InFlightTheGroundGivesNothing) {
   Leaning human;
   human.contacts.release();
-  human.contacts.find_rows(human.equation);
+  human.contacts.find_rows(human.equation, human.equation.still);
   add_flight_rows(human.rows);
   human.control.meet(human.equation, human.contacts.ease(), human.rows, human.contacts.support(), human.actuation);
   for (std::size_t k = 0; k < kRootDofs; ++k) EXPECT_NEAR(human.actuation.forces[k], 0.0, 1e-6) << k;

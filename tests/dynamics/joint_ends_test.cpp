@@ -80,10 +80,10 @@ TEST(BallEnds, HoldTheTailOfADogThatFalls) {
   spec.character.name = "quadruped";
   spec.dynamics.mode = Mode::dynamic;
   ImpactDesc blow;
-  blow.slot = "tail", blow.impulse_N_s = Vec3(19.0, 0.0, 0.0);
+  blow.slot = "tail", blow.impulse_N_s = Vec3(-18.0, 0.0, 0.0);
   spec.dynamics.impacts = {blow};
   ActionUse use;
-  use.action = "reach", use.slot = "leg_hind_left";
+  use.action = "reach", use.slot = "leg_hind_right";
   spec.sequences.push_back({"", 0, {{}}});
   spec.sequences[0].clips[0].actions = {use};
   spec.hold_frames = 22;

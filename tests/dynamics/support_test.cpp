@@ -68,7 +68,7 @@ TEST(Support, ProjectedAccelerationsKeepTheFeet) {
       SupportRows support;
       std::vector<double> none(state.velocity.size(), 0.0), forces(state.velocity.size());
       inverse_dynamics(body, state.velocity, none, kGravity_m_s2, scratch, forces);
-      support_rows(body, feet_of(character, world), state.velocity, 15.0, kGravity_m_s2, scratch, support);
+      support_rows(body, feet_of(character, world), state.velocity, 15.0, 0.0, scratch, support);
       std::vector<double> acceleration = state.acceleration;
       std::vector<double> ease(acceleration.size(), 1.0);
       std::fill_n(ease.begin(), kRootDofs, 1e3);
