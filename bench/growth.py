@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Measures how CPU time and memory grow with joints, obstacles, the length of a motion, cases of a run and failures of a
-corpus, and draws the curves: bench/growth.py CONTORT [--plot FILE.svg]. For docs/internals/performance.md."""
+"""Measures how CPU time and memory grow with joints, obstacles, the length of a motion, cases of a run and failures of
+a corpus, and draws the curves: bench/growth.py CONTORT [--plot FILE.svg]. For docs/internals/performance.md."""
 
 import argparse
 import json
@@ -28,7 +28,7 @@ class Measured:
 
 
 def write_bvh(path, joints, frames):
-    """A chain that swings gently. Written line by line: a child's peak memory counts that of its parent when it began."""
+    """A chain that swings gently. Written line by line: a child's peak memory counts its parent's when it began."""
     lines = ["HIERARCHY", "ROOT joint_0", "{", "OFFSET 0 1 0", "CHANNELS 3 Zrotation Xrotation Yrotation"]
     for j in range(1, joints):
         lines += [f"JOINT joint_{j}", "{", "OFFSET 0 0.1 0", "CHANNELS 3 Zrotation Xrotation Yrotation"]
@@ -118,7 +118,8 @@ def plot(measured):
         out.append(f"<text x='{left + 40}' y='14'>{title}</text>")
         for power in range(5):
             y = 170 - 130 * power / 4
-            out.append(f"<path d='M{left + 40} {y}h180' stroke='#ddd'/><text x='{left + 4}' y='{y + 4}'>×1e{power}</text>")
+            out.append(f"<path d='M{left + 40} {y}h180' stroke='#ddd'/>"
+                       f"<text x='{left + 4}' y='{y + 4}'>×1e{power}</text>")
         for values, colour in (([r.cpu_s for r in runs], "#c33"), ([r.memory_mb for r in runs], "#36c")):
             out.append(f"<path d='{path_of(sizes, values, left, 20)}' fill='none' stroke='{colour}' stroke-width='2'/>")
         out.append(f"<text x='{left + 40}' y='190'>{sizes[0]}</text><text x='{left + 220}' y='190' "

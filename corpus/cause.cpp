@@ -34,7 +34,7 @@ std::string_view without_side(std::string_view slot) {
 
 bool has_letters_of(std::string_view text, std::string_view lower_case) {
   const auto is_same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + 32 : a) == b; };
-  return std::ranges::search(text, lower_case, is_same).begin() != text.end();
+  return std::search(text.begin(), text.end(), lower_case.begin(), lower_case.end(), is_same) != text.end();
 }
 
 // "ball_r" of a right foot is "ball", and "ball_r swing" is "ball swing": the side is said before it.
