@@ -177,11 +177,6 @@ void angular_jacobian(const Multibody& body, const DynamicsScratch& scratch, int
     for (int k = 0; k < 3; ++k) rows[at(k) * n + at(j)] = scratch.freedoms[at(j)].angular[k];
 }
 
-Vec3 point_acceleration(const DynamicsScratch& scratch, int link, const Vec3& point_world_m) {
-  return acceleration_of_point({scratch.velocity[at(link)], scratch.acceleration[at(link)]},
-                               point_world_m - scratch.world[0].origin_m);
-}
-
 SpatialMotion carried_acceleration(const Multibody& body, const DynamicsScratch& scratch, int link,
                                    const Vec3& point_world_m, std::span<const double> velocity) {
   const Carried carried = carried_to(body, scratch, link, velocity);

@@ -74,10 +74,6 @@ void point_jacobian(const Multibody& body, const DynamicsScratch& scratch, int l
                     std::span<double> rows);
 void angular_jacobian(const Multibody& body, const DynamicsScratch& scratch, int link, std::span<double> rows);
 
-// The acceleration of a point fixed to a link (m/s^2, world). After inverse_dynamics with acceleration 0 and gravity 0
-// it is the part that depends on the present velocities alone: dJ/dt v.
-Vec3 point_acceleration(const DynamicsScratch& scratch, int link, const Vec3& point_world_m);
-
 // The acceleration that velocities alone cause at a point of a link, dJ/dt v: rad/s^2, and m/s^2 of the point (world).
 // After place(); the velocities may be any.
 SpatialMotion carried_acceleration(const Multibody& body, const DynamicsScratch& scratch, int link,
