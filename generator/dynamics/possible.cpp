@@ -322,7 +322,7 @@ class PossibleTarget {
     for (std::size_t i = 0; i < legs_.size(); ++i) {
       const Rigid wanted = within_reach(i, frame);
       place_foot(character_, legs_[i], world_, wanted, row);
-      if ((plan_.standing(frame) & (1U << i)) != 0) most_m = std::max(most_m, too_far_m(legs_[i], wanted, kStretch));
+      most_m = std::max(most_m, too_far_m(legs_[i], wanted, kStretch));
     }
     return most_m;
   }
