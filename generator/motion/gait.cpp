@@ -178,7 +178,7 @@ void Gait::take_step(const GaitParams& params, const GaitTiming& timing, const L
   step.from = foothold(params, timing, leg, number);
   // A swing that began before the course did is not made: the foot stands where it is.
   step.to = timing.lifted_s(leg, number) >= 0.0 ? foothold(params, timing, leg, number + 1) : step.from;
-  choose_rolling(*environment_, leg, std::max(params.speed_m_s * params.cycle_s, 1e-6),
+  choose_rolling(*environment_, leg, std::max(params.speed_m_s * params.cycle_s, 1e-6), params.toes_up_rad,
                  foothold(params, timing, leg, number - 1), step);
   choose_swing(*environment_, leg, params.lift_m, step);
 }

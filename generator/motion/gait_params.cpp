@@ -109,13 +109,13 @@ GaitParams walk_on_two(std::span<const Leg> legs, double speed_m_s, double headi
   params.heel_up_rad = roll * (59.4 - 20.0 * fast) * kRadPerDeg;
   params.toes_up_rad = roll * (16.8 + 9.4 * fast) * kRadPerDeg;
   params.roll = {.heel_rises = 0.68, .heel_peaks = 0.259, .heel_level = 0.709, .toes_rise = 0.51, .toes_flat = 0.276};
-  params.under = 0.5 - (0.13 - 0.064 * fast) * roll;
+  params.under = params.beat = 0.5 - (0.13 - 0.064 * fast) * roll;
   params.lift_m = mixed(0.08, 0.069 + 0.015 * fast) * length_m;
   params.rise = mixed(0.25, 0.5), params.fall = mixed(0.25, 0.286 - 0.04 * fast);
   params.late = (0.68 * fast - 0.4) * rolling;
   params.lower_m = mixed(0.03, 0.0172 + 0.036 * fast) * length_m;
-  // Arms swing by 30 degrees in all at 1.2 m/s (CMU 02_01).
-  params.arm_swing_rad = std::min(1.3, relative / 0.4) * 15.0 * kRadPerDeg;
+  // Arms swing by 30 degrees in all at 1.2 m/s (CMU 02_01), against the legs also in a walk backward.
+  params.arm_swing_rad = std::min(1.3, relative / 0.4) * 15.0 * kRadPerDeg * det::cos(heading_rad);
   params.arm_back_rad = 5.0 * kRadPerDeg, params.elbow_rad = 15.0 * kRadPerDeg;
   params.bounce_m = -rolling * std::min(dip_for(legs, params), (0.032 + 0.062 * fast) * length_m);
   return params;
@@ -140,7 +140,7 @@ GaitParams run_on_two(std::span<const Leg> legs, double speed_m_s, double roll_s
   params.speed_m_s = speed_m_s;
   params.cycle_s = 2.0 / (0.807 * std::sqrt(kGravity_m_s2 / length_m));
   params.duty = std::clamp(0.386 - 0.351 * (relative - 0.83), 0.22, 0.42);
-  params.under = 0.253;
+  params.under = params.beat = 0.253;
   const double brisk = roll_share * std::min(1.0, relative / 0.85);
   params.heel_up_rad = brisk * 64.0 * kRadPerDeg;
   params.toes_up_rad = brisk * 14.4 * kRadPerDeg;
@@ -182,7 +182,7 @@ int row_count(std::span<const Leg> legs) {
 }
 
 double root_beat(const GaitParams& params, double cycles) {
-  return 0.5 - 0.5 * det::cos(4.0 * kPi * (cycles - params.under * params.duty));
+  return 0.5 - 0.5 * det::cos(4.0 * kPi * (cycles - params.beat * params.duty));
 }
 
 GaitParams walk_params(std::span<const Leg> legs, double speed_m_s, double heading_rad, const Pace& pace) {
@@ -203,21 +203,37 @@ GaitParams run_params(std::span<const Leg> legs, double speed_m_s, double headin
   return params;
 }
 
-// A root that starts or stops does not fly as a falling body does: runners on two legs keep a foot on the ground.
-// Walkers on two legs take shorter and quicker steps, because a leg that is far from the hips needs much effort, and
-// swing their legs for longer. They lift their heels when the other foot has landed: an ankle is too weak to carry all
-// of the weight on the toes. The numbers were searched for walks of human and mech from 0.4 to 1.5 m/s.
+// The numbers of the next two were searched for walks of human and mech from 0.4 to 1.5 m/s and runs of 1.5 to 5 m/s.
+namespace {
+
+// Steps are shorter and quicker, because a leg that is far from the hips needs much effort, and legs swing for longer. A
+// heel is lifted when the other foot has landed: an ankle is too weak to carry all of the weight on the toes.
+void spare_walker(GaitParams& params) {
+  params.cycle_s *= 0.93, params.duty -= 0.06, params.lift_m *= 0.8;
+  params.heel_up_rad *= 0.7, params.roll.heel_rises = std::max(params.roll.heel_rises, 0.82);
+  params.rise = std::max(params.rise, 0.52);
+  params.turn_of_cycle_rad *= 0.6;
+}
+
+// One foot is always on the ground, because a root that starts or stops does not bounce enough to fly, and the root is
+// lowest in the middle of the stance: then the ground's force is greatest while the foot is under the hips.
+void spare_runner(GaitParams& params) {
+  params.trot = false;
+  params.cycle_s *= 1.2, params.duty = 0.52, params.under = 0.3, params.beat = 0.5;
+  params.bounce_m *= 0.5, params.lower_m *= 0.8;
+  params.heel_up_rad *= 0.6, params.roll.heel_rises = 0.78;
+  params.rise = 0.48, params.acceleration_m_s2 = 0.7;
+}
+
+}  // namespace
+
 void spare_strength(std::span<const Leg> legs, GaitParams& params) {
   const bool runs = params.duty < 0.5;
   params.acceleration_m_s2 = runs && legs.size() > 2 ? 1.5 : 0.9;
-  if (runs && legs.size() <= 2) {
-    params.duty = 0.6, params.bounce_m *= 0.3;
-  } else if (legs.size() <= 2) {
-    params.cycle_s *= 0.93, params.duty -= 0.06, params.lift_m *= 0.8;
-    params.heel_up_rad *= 0.7, params.roll.heel_rises = std::max(params.roll.heel_rises, 0.82);
-  }
   params.leads = 0.5;
-  params.rise = std::max(params.rise, 0.52), params.fall = 1.0 - params.rise;
+  params.rise = std::max(params.rise, 0.5);
+  if (legs.size() <= 2) runs ? spare_runner(params) : spare_walker(params);
+  params.fall = 1.0 - params.rise;
 }
 
 // The cadence of a quick walk, 1.1 sqrt(g / l) steps a cycle of two. The foot on the side of the turn goes first.

@@ -24,6 +24,7 @@ struct GaitParams {
   double lift_m = 0.08;      // least lift of a swinging foot
   double lower_m = 0.0;      // depth of the root below its height at rest
   double bounce_m = 0.0;     // twice in a cycle the root goes up between the feet (> 0, run), or down (< 0, walk)
+  double beat = 0.5;         // (0, 1): the fraction of the stance after which the root is lowest (run), or highest (walk)
   double lean_rad = 0.0;     // forward lean of the root
   double heel_up_rad = 0.0;  // >= 0: greatest angle of a sole about its toes
   double toes_up_rad = 0.0;  // >= 0: angle of a sole that comes down on its heel
@@ -49,15 +50,16 @@ struct Pace {
 GaitParams walk_params(std::span<const Leg> legs, double speed_m_s, double heading_rad, const Pace& pace = {});
 GaitParams run_params(std::span<const Leg> legs, double speed_m_s, double heading_rad, const Pace& pace = {});
 
-// Changes a gait to one that strength and balance allow: it starts and stops slowly, with feet behind and ahead of the
-// hips meanwhile, and feet in the air get faster and slower over all of their way.
+// Changes a gait to one that strength and balance allow: it starts, stops and turns slowly, with feet behind and ahead
+// of the hips meanwhile, and feet in the air get faster and slower over all of their way. Two legs step shorter, lift
+// their heels later, and run with a foot on the ground.
 void spare_strength(std::span<const Leg> legs, GaitParams& params);
 
 // Returns the gait of steps on the spot while the body turns, to the left if `turn_rad` > 0. `pace`, in (0, 1], is a
 // fraction of the usual cadence.
 GaitParams turn_params(std::span<const Leg> legs, double turn_rad, double pace);
 
-// Returns the fraction of the bounce, [0, 1], this many cycles after a stance began: 0 when the hips are over the foot.
+// Returns the fraction of the bounce, [0, 1], this many cycles after a stance began: 0 at `beat` of the stance.
 double root_beat(const GaitParams& params, double cycles);
 
 // v / sqrt(g l) with the shortest leg's length l.

@@ -5,6 +5,7 @@
 
 #include "generator/motion/foot_roll.h"
 #include "generator/motion/foothold.h"
+#include "model/core/detmath.h"
 
 namespace contort {
 
@@ -97,6 +98,13 @@ double room_to_roll(const Environment& environment, const Leg& leg, const Rigid&
   return 1.0;
 }
 
+// The part of toes_up_rad that is left if the ground under a sole raises its toes already.
+double left_of_toes_up(const Rigid& world_from_sole, double toes_up_rad) {
+  if (toes_up_rad <= 0.0) return 1.0;
+  const double uphill_rad = det::asin(std::clamp((world_from_sole.q * Vec3(0, 0, 1)).y, -1.0, 1.0));
+  return std::clamp(1.0 - uphill_rad / toes_up_rad, 0.0, 1.0);
+}
+
 }  // namespace
 
 void choose_swing(const Environment& environment, const Leg& leg, double lift_m, Step& step) {
@@ -118,13 +126,16 @@ void choose_swing(const Environment& environment, const Leg& leg, double lift_m,
   step.bump_m = std::min(step.bump_m, 0.5 * leg.length_m);  // higher no leg gets
 }
 
-void choose_rolling(const Environment& environment, const Leg& leg, double stride_m, const Rigid& before, Step& step) {
+void choose_rolling(const Environment& environment, const Leg& leg, double stride_m, double toes_up_rad,
+                    const Rigid& before, Step& step) {
   const double beyond_m = 0.7 * leg.sole_from_ankle.y;
   const double came = std::min(1.0, across_m(before.p_m, step.from.p_m) / stride_m);
   const double goes = std::min(1.0, across_m(step.from.p_m, step.to.p_m) / stride_m);
-  step.landed_up = came * room_to_roll(environment, leg, step.from, leg.low_m.z, -beyond_m);
+  step.landed_up = came * left_of_toes_up(step.from, toes_up_rad) *
+                   room_to_roll(environment, leg, step.from, leg.low_m.z, -beyond_m);
   step.leaves_up = goes * room_to_roll(environment, leg, step.from, leg.high_m.z, beyond_m);
-  step.lands_up = goes * room_to_roll(environment, leg, step.to, leg.low_m.z, -beyond_m);
+  step.lands_up = goes * left_of_toes_up(step.to, toes_up_rad) *
+                  room_to_roll(environment, leg, step.to, leg.low_m.z, -beyond_m);
 }
 
 Vec3 straight_way(const Step& step, double swing) {

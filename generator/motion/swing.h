@@ -23,9 +23,10 @@ struct Step {
 // foot goes up first and then forward. Sets bump_m, at least about lift_m, and margin.
 void choose_swing(const Environment& environment, const Leg& leg, double lift_m, Step& step);
 
-// Sets the fractions of the roll: less on a path shorter than a stride, none below a riser. `before` is the foothold
-// before `from`.
-void choose_rolling(const Environment& environment, const Leg& leg, double stride_m, const Rigid& before, Step& step);
+// Sets the fractions of the roll: less on a path shorter than a stride, none below a riser, and toes that are raised by
+// toes_up_rad from level also uphill, where an ankle has less room. `before` is the foothold before `from`.
+void choose_rolling(const Environment& environment, const Leg& leg, double stride_m, double toes_up_rad,
+                    const Rigid& before, Step& step);
 
 // Returns the sole's place on its straight path, without lift and roll.
 Vec3 straight_way(const Step& step, double swing);

@@ -18,11 +18,11 @@ namespace {
 using fixtures::sequence;
 using fixtures::use;
 
-Spec walking(const std::string& name, double speed_m_s, Mode mode) {
+Spec going(const std::string& name, const std::string& action, double speed_m_s, double heading_deg, Mode mode) {
   Spec spec;
   spec.character.name = name;
-  spec.sequences = {
-      sequence({use("walk", name == "quadruped" ? "hips" : "waist", 0, 360, {{"speed_m_s", speed_m_s}})})};
+  spec.sequences = {sequence({use(action, name == "quadruped" ? "hips" : "waist", 0, 360,
+                                  {{"speed_m_s", speed_m_s}, {"heading_deg", heading_deg}})})};
   spec.hold_frames = 60;
   spec.dynamics.mode = mode;
   return spec;
@@ -33,6 +33,8 @@ Stage built_stage(const Spec& spec) {
   if (!stage) throw std::logic_error(to_line(stage.issue()));
   return *stage;
 }
+
+Spec walking(const std::string& name, double speed_m_s, Mode mode) { return going(name, "walk", speed_m_s, 0.0, mode); }
 
 // The target of a stage as actions made it, and as it was made possible.
 struct Made {
@@ -121,14 +123,27 @@ Followed followed(const Spec& spec) {
   return out;
 }
 
+void expect_to_stay_up(const std::string& name, const std::string& action, double speed_m_s, double heading_deg) {
+  const Followed way = followed(going(name, action, speed_m_s, heading_deg, Mode::dynamic));
+  const std::string what = name + " " + action + " " + std::to_string(speed_m_s) + " " + std::to_string(heading_deg);
+  EXPECT_TRUE(way.stood) << what;
+  EXPECT_LT(way.farthest_m, 0.05) << what;
+  EXPECT_LT(way.farthest_deg, 5.0) << what;
+}
+
 TEST(Possible, DynamicWalksStayUpAndNearTheirTargets) {
   for (const char* name : {"human", "mech", "quadruped"})
-    for (const double speed_m_s : {0.4, 0.6, 0.8, 1.0, 1.2, 1.4}) {
-      const Followed walk = followed(walking(name, speed_m_s, Mode::dynamic));
-      EXPECT_TRUE(walk.stood) << name << " " << speed_m_s;
-      EXPECT_LT(walk.farthest_m, 0.05) << name << " " << speed_m_s;
-      EXPECT_LT(walk.farthest_deg, 5.0) << name << " " << speed_m_s;
-    }
+    for (const double speed_m_s : {0.4, 0.6, 0.8, 1.0, 1.2, 1.4}) expect_to_stay_up(name, "walk", speed_m_s, 0.0);
+}
+
+TEST(Possible, DynamicWalksInAllDirectionsStayUpAndNearTheirTargets) {
+  for (const char* name : {"human", "quadruped"})
+    for (const double heading_deg : {-135.0, -90.0, 45.0, 180.0}) expect_to_stay_up(name, "walk", 0.9, heading_deg);
+}
+
+TEST(Possible, DynamicRunsStayUpAndNearTheirTargets) {
+  for (const char* name : {"human", "mech", "quadruped"})
+    for (const double speed_m_s : {2.0, 2.7, 4.0}) expect_to_stay_up(name, "run", speed_m_s, 0.0);
 }
 
 // Hips that are moved for balance come too far from a foot that is about to land; they go down for it, as for one that
