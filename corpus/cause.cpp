@@ -89,7 +89,7 @@ constexpr Verb kVerbs[] = {
     {"angular_velocity", "turns too fast"},
     {"pop", "jumps"},
     {"root_pop", "jumps"},
-    {"angular_acceleration", "starts or stops too abruptly"},
+    {"angular_acceleration", "changes its speed too abruptly"},
     {"bind_pose_flash", "flashes to the rest pose"},
     {"bone_position", "leaves its region"},
     {"aim_error", "misses the target of its aim"},

@@ -13,7 +13,7 @@ std::string check_title(std::string_view check) {
       {"angular_velocity", "Joint too fast"},
       {"pop", "Sudden jump"},
       {"root_pop", "Root jumps"},
-      {"angular_acceleration", "Joint starts or stops too abruptly"},
+      {"angular_acceleration", "Joint changes its speed too abruptly"},
       {"bind_pose_flash", "Flash of the rest pose"},
       {"bone_position", "Point outside its region"},
       {"aim_error", "Aim misses its target"},

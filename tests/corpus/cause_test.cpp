@@ -57,6 +57,8 @@ TEST(Cause, HeadlinesOfSeveralPlacesNameThem) {
     return cause_headline(cause_by(CauseScope::alone, {"track"}), check, subjects, nullptr);
   };
   EXPECT_EQ(headline("angular_velocity", {"body/pan", "body/tilt"}), "Pan and tilt turn too fast during track");
+  EXPECT_EQ(headline("angular_acceleration", {"leg_left/knee", "leg_right/knee"}),
+            "Left knee and right knee change their speed too abruptly during track");
   EXPECT_EQ(headline("joint_range", {"arm_left/elbow min", "arm_left/elbow max"}),
             "Left elbow leaves its range during track");
   EXPECT_EQ(headline("mimic_error", {"a/b", "a/c", "a/d", "a/e"}),
