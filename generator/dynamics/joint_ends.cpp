@@ -140,14 +140,16 @@ void stop_at_ends(const Character& character, const Multibody& body, std::span<c
 }
 
 bool overbends(const Character& character, const Multibody& body, std::span<const char> held,
-               const FigureState& state) {
+               std::span<const double> target, const FigureState& state) {
   constexpr double kOver_rad = 0.03;
   for (std::size_t i = 1; i < body.links().size(); ++i) {
     const Link& link = body.links()[i];
     if (held[at(link.dof)] == 0 || link.kind != JointKind::hinge) continue;
     const Joint& joint = character.joints()[i];
     const double now = state.coords[at(link.coord)], rate = state.velocity[at(link.dof)];
-    if ((now > joint.high + kOver_rad && rate > 0.0) || (now < joint.low - kOver_rad && rate < 0.0)) return true;
+    const double wanted = target[at(link.coord)];
+    const double low = std::min(joint.low, wanted) - kOver_rad, high = std::max(joint.high, wanted) + kOver_rad;
+    if ((now > high && rate > 0.0) || (now < low && rate < 0.0)) return true;
   }
   return false;
 }

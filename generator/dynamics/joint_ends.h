@@ -18,9 +18,11 @@ void slow_at_ends(const Character& character, const Multibody& body, std::span<c
 void stop_at_ends(const Character& character, const Multibody& body, std::span<const char> held, double tick_s,
                   FigureState& state);
 
-// Returns true if a hinge of a leg with a standing foot is beyond the end of its range by more than 0.03 rad, and
-// moving outward. A knee that a walk stretches stays below that. No ground can hold a leg that bends so far.
-bool overbends(const Character& character, const Multibody& body, std::span<const char> held, const FigureState& state);
+// Returns true if a hinge of a leg with a standing foot is beyond the end of its range, and beyond its angle in the
+// target (by coordinate), by more than 0.03 rad, and moving outward. A knee that a walk stretches stays below that. No
+// ground can hold a leg that bends so far.
+bool overbends(const Character& character, const Multibody& body, std::span<const char> held,
+               std::span<const double> target, const FigureState& state);
 
 // An end of a ball's range, for small rotations (rotation vectors along the axes of the moved body): along `out` a
 // rotation may be at most `room_rad`, which is negative for a ball that is outside.

@@ -78,7 +78,11 @@ class Simulation {
   // keeps to its target and looked farther would slow down sooner than it, and arrive late.
   double ends_ahead_s() const { return is_disturbed() ? shortest_horizon_s(tick_s_) : kEndsAhead * tick_s_; }
 
-  bool leg_overbends() const { return overbends(character_, body_, s_.contacts.feet().stands_by_dof(), state_); }
+  bool leg_overbends() const {
+    const auto count = at(motion_.coord_count);
+    const std::span target = std::span(motion_.response.target_coords).subspan(at(frame_) * count, count);
+    return overbends(character_, body_, s_.contacts.feet().stands_by_dof(), target, state_);
+  }
 
   bool is_dynamic() const { return setup_.mode == Mode::dynamic; }
 
@@ -112,9 +116,10 @@ class Simulation {
   void tick(int index, bool moves) {
     s_.equation.place();
     const double frame = frame_ + static_cast<double>(index) / setup_.ticks_per_frame;
-    const bool returns_softly = is_struck() && !s_.loose.is_loose();
-    track(body_, target_, frame, tick_s_, {!s_.contacts.is_planted(), returns_softly, !is_disturbed()}, state_, track_,
-          s_.tracked);
+    const bool returns_softly = is_struck() && !s_.loose.is_loose(), is_planted = s_.contacts.is_planted();
+    // With a load, a figure may leave its target to relieve its joints, but not while it steps.
+    const bool is_exact = !is_disturbed() || (!is_struck() && !is_planted);
+    track(body_, target_, frame, tick_s_, {!is_planted, returns_softly, is_exact}, state_, track_, s_.tracked);
     frame_time_ = frame;
     s_.contacts.follow_plan(frame, s_.equation.dynamics);
     s_.standing.begin_tick(frame, is_disturbed());

@@ -123,6 +123,16 @@ Followed followed(const Spec& spec) {
   return out;
 }
 
+TEST(Possible, DynamicWalksWithAPackStayUp) {
+  for (const char* name : {"human", "mech"})
+    for (const double mass_kg : {5.0, 8.0})
+      for (const double speed_m_s : {0.5, 0.9, 1.2}) {
+        Spec spec = walking(name, speed_m_s, Mode::dynamic);
+        spec.dynamics.loads = {{"torso", "back", {}, {0.3, 0.4, 0.15}, mass_kg}};
+        EXPECT_TRUE(followed(spec).stood) << name << " " << speed_m_s << " " << mass_kg;
+      }
+}
+
 void expect_to_stay_up(const std::string& name, const std::string& action, double speed_m_s, double heading_deg) {
   const Followed way = followed(going(name, action, speed_m_s, heading_deg, Mode::dynamic));
   const std::string what = name + " " + action + " " + std::to_string(speed_m_s) + " " + std::to_string(heading_deg);
