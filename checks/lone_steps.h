@@ -25,7 +25,8 @@ inline constexpr double kBlipFactor = 4.0;      // a blip is at least this many 
 inline constexpr double kJumpFactor = 8.0;      // a jump is at least this many times every other step, and kBlipFactor
                                                 // times the two beside it
 
-// Returns the limits for a channel of this interpolation. A STEP channel consists of jumps, so only its blips are judged.
+// Returns the limits for a channel of this interpolation. A STEP channel consists of jumps, so only its blips are
+// judged.
 LoneLimits lone_limits(Interpolation interpolation, const LoneLimits& limits);
 
 // Returns for each interval the largest step that would not stand alone; infinite where nothing is judged: an interval

@@ -131,7 +131,7 @@ void add_against_options(CLI::App& command, AgainstOptions& options) {
                                          "Another contort program, as a path or a name in PATH, or with --generator another "
                                          "generator: only failures that it does not show count");
   base->type_name("BASE");
-  command.add_flag("--moved", options.moved, "Motions that merely differ from those of the base gate, too")
+  command.add_flag("--moved", options.moved, "Fail also if motions differ from those of the base without a new failure")
       ->needs(base);
   command
       .add_option("--tolerance", options.tolerance,

@@ -1,9 +1,9 @@
 // Learns the rule that separates failing from passing requests. docs/reference/conditions.md has the score that it
 // maximises.
 //
-// Rules are searched by beam search over conjunctions, as in rule learners of the CN2 family (Clark and Niblett, The CN2
-// Induction Algorithm, Machine Learning 3, 1989), with F1 as the measure; a second conjunction covers what the first one
-// leaves. Alhazen (Kampmann et al., ESEC/FSE 2020) explains failures by decision trees over such features.
+// Rules are searched by beam search over conjunctions, as in rule learners of the CN2 family (Clark and Niblett, The
+// CN2 Induction Algorithm, Machine Learning 3, 1989), with F1 as the measure; a second conjunction covers what the
+// first one leaves. Alhazen (Kampmann et al., ESEC/FSE 2020) explains failures by decision trees over such features.
 #pragma once
 
 #include <optional>

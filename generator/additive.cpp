@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kCutFade_s = 0.15;
 
-// Whether the action has begun in the run and is not over; a cut run goes on while it fades.
+// Returns true if the action has begun in the run and is not over; a cut run goes on while it fades.
 bool is_on(const Playback& playback, const PlannedAction& action, const QueueSpan& run) {
   const int frame = playback.frame();
   const bool over = frame > run.last_frame && Playback::content(run, run.last_frame) >= action.last_frame;

@@ -16,7 +16,7 @@ constexpr double kFaces_rad = 15.0 * kRadPerDeg;  // a figure that faces its tar
 constexpr double kComesIn_s = 0.5;
 constexpr double kTurns_rad_s = 35.0 * kRadPerDeg;
 
-// Whether a further action, of this use or of another that aims too, has the part.
+// Returns true if a further action moves the part already, for this aim or for another one.
 bool is_helped(const Playback& playback, std::span<const LayerStack> stacks, int part) {
   const LayerHold& hold = stacks[at(part)].ik();
   return hold.action >= 0 && planned(playback, hold).further >= 0;
@@ -33,7 +33,7 @@ double easy_rad(const PlannedAction& aim) {
   return aim.aim->second.arm >= 0 ? kEasyOfTwoHands_rad : kEasyAim_rad;
 }
 
-// Whether another use aims somewhere else: a figure that steps round would take it from its target.
+// Returns true if another aim has a target in another direction, which it would miss if the figure stepped round.
 bool aims_elsewhere(const Playback& playback, std::span<const LayerStack> stacks, const Stage& stage,
                     const PlannedAction& aim, const Rigid& root) {
   const double azimuth = azimuth_rad(root, target_of(stage, aim));

@@ -73,12 +73,12 @@ class Goals {
  private:
   static int content(const QueueSpan& run, int frame) { return run.first_content + frame - run.first_frame; }
 
-  // Whether the action came to its end in the span's last frame, and does not fade out.
+  // Returns true if the action ends in the last frame of the span, without fading out.
   static bool is_ended(const PlannedAction& action, const ActionSpan& span, const QueueSpan& run) {
     return content(run, span.last_frame) >= action.last_frame && !(action.blend_out > 0.0);
   }
 
-  // Whether a part lags in the last frame of an action that came to its end.
+  // Adds an unmet request if the part lags in the last frame of an action that ended. Returns true if it lags.
   bool add_unmet_end(const PlannedAction& action, const ActionSpan& span, const QueueSpan& run) {
     const int last = span.last_frame;
     if (!is_ended(action, span, run)) return false;

@@ -54,7 +54,7 @@ double eased_before(const Playback& playback, const LayerHold& hold) {
   return blended_in(planned(playback, hold), hold.came, content(playback, hold) - 1);
 }
 
-// Whether the posture of an action that has lost its layer still was in force in the frame before.
+// Returns true if the posture of an action that has lost its layer still was in force in the frame before.
 bool was_in_force(const Playback& playback, const LayerHold& hold, std::size_t part) {
   return places_foot(playback, hold, part) ||
          not_blended_out(planned(playback, hold), content(playback, hold) - 1) > 0.0;
@@ -151,12 +151,13 @@ bool LayerStack::take_over(const Playback& playback, std::size_t part, const Lay
   return next.action >= 0;
 }
 
-// Whether the action that has just taken the layer ik is a course of legs, and finds the leg or foot elsewhere.
+// Returns true if the action that has just taken the layer ik is a course of legs, and finds the leg or foot elsewhere.
 bool LayerStack::comes_to_course(const Playback& playback, std::size_t part) const {
   return part != 0 && moves_legs(playback, ik_) && !planned(playback, ik_).cuts && ik_.eased < 1.0;
 }
 
-// Whether a leg or foot is where the last course of legs put it. No action that blends its joints has moved it since.
+// Returns true if a leg or foot is where the last course of legs put it. No action that blends its joints has moved it
+// since.
 bool LayerStack::stands_for(const Playback& playback, const LayerHold& next, std::size_t part) const {
   return moves_legs(playback, next) && part != 0 && overwrite_.since_action < 0 &&
          (ik_.since_action < 0 || playback.action(ik_.since_action).def->spread == Spread::legs);

@@ -160,8 +160,8 @@ void LimbKeeper::plant(const Limb& limb) {
   }
 }
 
-// In the first frame after a course of legs, the trunk that carries a leg may go on, or be hit: the foot stays where the
-// course has put it.
+// In the first frame after a course of legs, the trunk that carries a leg may go on, or be hit: the foot stays where
+// the course has put it.
 bool LimbKeeper::stay_after_course(int leg) {
   const StandingFeet& feet = s_.rules.feet();
   const bool is_carried = carrier_of(*stage_.character, stage_.legs[at(leg)].part) != 0;

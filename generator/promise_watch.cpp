@@ -43,15 +43,14 @@ void PromiseWatch::note_lag(const Playback& playback, std::size_t p) {
   if (const auto why = shortfall_of(playback, p)) s_.lags.note(playback.frame(), p, why);
 }
 
-// Whether the use that aims is all that moves a part, which is where it wants it. Parts before it in the chain are not
-// its own.
+// Returns true if nothing but this aim moves the part, and the part is where the aim wants it.
 bool PromiseWatch::is_alone(const Playback& playback, const PlannedAction& aim, std::size_t p) const {
   const LayerHold& ik = s_.stacks[p].ik();
   return ik.action >= 0 && planned(playback, ik).use == aim.use && come_in(playback, ik) >= 1.0 && s_.added[p] == 0 &&
          s_.behind[p] == 0 && s_.shift[p] == Shift::none;
 }
 
-// Whether an aim is fully in force.
+// Returns true if an aim is fully in force.
 bool PromiseWatch::is_full(const Playback& playback, const LayerHold& hold) const {
   const PlannedAction& action = planned(playback, hold);
   return come_in(playback, hold) >= 1.0 && left_of(playback, hold) >= 1.0 && playback.frame() > hold.frame &&

@@ -6,7 +6,7 @@ namespace contort {
 
 namespace {
 
-// Whether an entry is missing, or had ended before the frame that came before this one.
+// Returns true if there is no such entry (-1), or if it ended before the frame before this one.
 template <class Span>
 bool is_over(const std::vector<Span>& spans, int entry, int frame) {
   return entry < 0 || spans[at(entry)].last_frame < frame - 1;

@@ -58,8 +58,8 @@ bool LimbKeeper::has_moved(const Limb& limb) const {
   });
 }
 
-// Whether all feet on legs that the limb carries could stay where they stand, or go where a course has them, if it went
-// so many of this frame's steps. On a course legs must not touch other bodies either.
+// Returns true if all feet on legs that the limb carries could stay where they stand, or go where a course has them, if
+// it went so many of this frame's steps. On a course legs must not touch other bodies either.
 bool LimbKeeper::feet_reach(const Playback& playback, const Limb& limb, double steps,
                             const std::optional<FramesAhead>& course) {
   constexpr double kReaches_m = 0.002;

@@ -1,5 +1,5 @@
-// The report's lists of what a run did not judge: cases that the generator refused, requests that it could not meet, and
-// checks that could not judge.
+// The report's lists of what a run did not judge: cases that the generator refused, requests that it could not meet,
+// and checks that could not judge.
 #pragma once
 
 #include <string>

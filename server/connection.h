@@ -12,8 +12,8 @@
 
 namespace contort::server {
 
-// The times that the server waits for a client. A body or an answer may pause for `rest_s`, and needs `bytes_per_s`
-// on average after that. The server's own time does not count.
+// The times that the server waits for a client. A body or an answer has `rest_s` as a start, and after it must have made
+// `bytes_per_s` on average, or the connection is closed. The server's own time does not count.
 struct Patience {
   double next_request_s = 10.0;
   double head_s = 5.0;  // from the first byte of the head on

@@ -1,4 +1,4 @@
-// Takes the extensions of extensions.h out of a glTF document.
+// Reads the extensions that extensions.h describes from a glTF document, and removes them from it.
 #pragma once
 
 #include "formats/gltf/extensions.h"

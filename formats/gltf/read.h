@@ -22,8 +22,8 @@ namespace contort {
 Result<Asset> read_gltf(const std::string& path);
 
 // The same, but a fault in one channel of a clip, or in the bind matrices of a skin, does not refuse the file: it is
-// listed in Asset::faults. A channel that cannot be read is left out. Rotations that are no unit quaternions are read as
-// if they were; one of length 0 as the key before it.
+// listed in Asset::faults. A channel that cannot be read is left out. Rotations that are no unit quaternions are read
+// as if they were; one of length 0 as the key before it.
 Result<Asset> read_gltf_around_faults(const std::string& path);
 
 // Reads a GLB in memory; all of its buffers must be inside. Opens no file.

@@ -42,7 +42,7 @@ bool is_trunk(const Character& character, int part) {
 
 namespace {
 
-// Whether the part, or one on the way down to it, is carried by `carrier` or is it.
+// Returns true if the part, or one on the way down to it, is carried by `carrier` or is it.
 bool hangs_on(const Character& character, int part, int carrier) {
   while (part > carrier) part = carrier_of(character, part);
   return part == carrier;

@@ -1,5 +1,5 @@
-// aim: a point of an arm, a head or a torso, or of what it carries, is directed at a target while the body moves (P13). A
-// limb's first posture comes from the aim table; every frame goes on from the one before, so that joints turn little.
+// aim: a point of an arm, a head or a torso, or of what it carries, is directed at a target while the body moves (P13).
+// A limb's first posture comes from the aim table; every frame goes on from the one before, so that joints turn little.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -55,9 +55,9 @@ void prefer_for_two_hands(const RuleInput& in, Posture& posture, std::span<AimHi
   });
 }
 
-// Chooses, from the postures of the table that point there, the best one in which no bodies are too near, and on the way
-// to it, if there is one; or in which the other hand can hold the object, too. False where all have such bodies or miss
-// the target; then `posture` is of no use.
+// Chooses, from the postures of the table that point there, the best one in which no bodies are too near, and on the
+// way to it, if there is one; or in which the other hand can hold the object, too. False where all have such bodies or
+// miss the target; then `posture` is of no use.
 bool find_room(const RuleInput& in, const AimTarget& target, Posture& posture) {
   const AimTable& table = *in.aim->table;
   const auto base = static_cast<std::size_t>(in.character.joint(in.aim->chain.joints.front()).parent);
@@ -95,8 +95,8 @@ Vec3 turned_about(const Rigid& frame, const Vec3& point_m, double angle_rad) {
   return frame.p_m + axis_angle(frame.q * Vec3(0, 1, 0), angle_rad) * (point_m - frame.p_m);
 }
 
-// The point, brought to an azimuth about the frame's +Y that is within `most_rad` of `easy_rad`; also by how much it was
-// beyond that.
+// The point, brought to an azimuth about the frame's +Y that is within `most_rad` of `easy_rad`; also by how much it
+// was beyond that.
 Vec3 limited_azimuth(const Rigid& frame, const Vec3& point_m, double easy_rad, double most_rad, double& beyond_rad) {
   const double azimuth = wrap_angle(azimuth_rad(frame, point_m) - easy_rad);
   beyond_rad = std::max(0.0, std::fabs(azimuth) - most_rad);
@@ -132,8 +132,8 @@ bool aims_its_face(const RuleInput& in) {
   return !in.part.facing.empty() && in.part.facing.front().socket == in.aim->chain.socket;
 }
 
-// A head or torso faces the target as directly as it can, from rest: going on from the frame before it would come to lean.
-// If this misses the target, another posture of the table may reach it.
+// A head or torso faces the target as directly as it can, from rest: going on from the frame before it would come to
+// lean. If this misses the target, another posture of the table may reach it.
 AimResult face(const RuleInput& in, const AimTarget& target, Posture& posture) {
   constexpr int kPasses = 3;  // the point moves when the part turns
   const FacingChain& chain = in.part.facing.front();

@@ -89,8 +89,8 @@ double missing_m(const RuleInput& in, const ReachChain& chain, const Vec3& targe
   return length(target - world_from_socket(in.character, in.world, chain.tip).p_m);
 }
 
-// Whether the target is farther from the shoulder than the tip, which is placed: one that is too near is not reached by
-// travels, which only lengthen the limb.
+// Returns true if the target is farther from the shoulder than the tip, which is placed: one that is too near is not
+// reached by travels, which only lengthen the limb.
 bool is_too_short(const RuleInput& in, const ReachChain& chain, const Vec3& target) {
   const Vec3 upper = in.world[at(chain.upper)].p_m;
   return length(target - upper) > length(world_from_socket(in.character, in.world, chain.tip).p_m - upper);

@@ -68,7 +68,8 @@ std::array<Vec3, 13> detours_of(Side side) {
   return detours;
 }
 
-// The least room at seven stops on the way, by a detour; exact from `matters_m` to kFree_m, which is enough for any way.
+// The least room at seven stops on the way, by a detour; exact from `matters_m` to kFree_m, which is enough for any
+// way.
 double room_on_way_m(const RuleInput& in, const Vec3& by_rad, double matters_m, Posture& posture) {
   Kept kept;
   const auto keep = [&](std::size_t coord, std::size_t at) { kept.coords[at] = posture.coords[coord]; };

@@ -168,8 +168,8 @@ bool begins_where_it_stands(const RuleInput& in, const GaitParams& params) {
          rotation_angle(glm::conjugate(root.q) * now.q) < kNear_rad;
 }
 
-// The length of a half cycle from `even_s` on, if the course goes straight over level ground there at its full speed and
-// has not turned much before; else 0.
+// The length of a half cycle from `even_s` on, if the course goes straight over level ground there at its full speed
+// and has not turned much before; else 0.
 double even_for_s(const RuleInput& in, const GaitParams& params, double lasts_s, double even_s) {
   constexpr double kLittle_rad = 20.0 * kRadPerDeg;
   const GaitTiming timing(params, in.legs, lasts_s);
@@ -267,7 +267,7 @@ GaitFrame bent(const RuleInput& in, Gait& gait, double share) {
   return frame;
 }
 
-// How a bend goes with the progress of its course.
+// The depth of a bend over the progress of its course.
 struct BendShape {
   double (*share_at)(double progress);
   double peak;  // the greatest rate of the share, in whole ways for each duration

@@ -14,7 +14,8 @@ const ParamDef* find_param(const std::vector<ParamDef>& defs, const std::string&
   return found == defs.end() ? nullptr : &*found;
 }
 
-// Whether the part takes the values. Points are looked for when a spec says what is carried.
+// Returns an issue if the part has no such parameter, or a value does not fit it. Points of objects are checked later,
+// when a spec says what the part carries.
 Result<Done> check_values(const std::vector<ParamDef>& defs, const std::map<std::string, ParamValue>& values,
                           const Part& part, const std::string& pointer) {
   for (const auto& [name, value] : values) {
@@ -28,7 +29,7 @@ Result<Done> check_values(const std::vector<ParamDef>& defs, const std::map<std:
   return Done{};
 }
 
-// Whether the script may set all that it says it does.
+// Returns an issue if the script declares to set a parameter that it may not set.
 Result<Done> check_sets(const std::vector<ParamDef>& defs, const ActionDesc& desc, const Part& part) {
   for (std::size_t i = 0; i < desc.sets.size(); ++i)
     if (const ParamDef* def = find_param(defs, desc.sets[i]); def == nullptr || def->type == ParamType::choice)
@@ -72,8 +73,8 @@ Result<Done> can_do_and_compute(const ActionDesc& desc, const Character& charact
   return answer && !desc.script.empty() ? try_script(desc, character, part) : std::move(answer);
 }
 
-// Whether the part can do it, in every slot of the library that may take it: the last reason against it, if there is
-// one. Characters that cannot be built have a fault of their own.
+// Returns an issue if the part cannot perform the action in some slot of the library that may take it. Characters that
+// cannot be built are left out: they have a fault of their own.
 Result<Done> can_do_everywhere(const ActionDesc& desc, const Library& library, const std::string& part_name) {
   Result<Done> answer = Done{};
   for (const auto& [name, character_desc] : library.characters)

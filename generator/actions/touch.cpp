@@ -33,7 +33,7 @@ bool is_in_range(const RuleInput& in, const Posture& posture) {
   return std::ranges::all_of(own, [&](const Joint& joint) { return contort::is_in_range(joint, posture.coords); });
 }
 
-// Whether the arm that touches the wall where it is chosen to, is there without a fault, and gets there.
+// Returns true if the hand reaches its place on the wall, and the arm keeps its ranges and touches no body there.
 bool touches_well(const RuleInput& in, int obstacle, Posture& posture) {
   constexpr int kSettles = 3;  // a wrist comes nearer to its place with every frame
   const Surface surface = surface_from(in, in.easy_grip_m + in.body.raised_by_m);

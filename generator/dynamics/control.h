@@ -16,7 +16,7 @@ namespace contort {
 
 inline constexpr std::size_t kMostHandles = 8;  // greatest number of handles of one group
 
-// The data of a tick for control, and the accelerations and forces that it changes.
+// The values that control reads in one tick, and the accelerations and forces that control modifies.
 struct ControlTick {
   const DynamicFigure& figure;
   DynamicsScratch& dynamics;     // after inverse_dynamics with acceleration 0

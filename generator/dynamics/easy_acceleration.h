@@ -9,9 +9,10 @@
 namespace contort {
 
 // Values by joint: rad/s^2, m/s^2 for travels; infinite for the root and massless ends. They come from the mass matrix
-// at rest. The greatest effort of gravity is subtracted from a joint's strength. The acceleration of one joint also moves
-// the zero moment point by no more than a fraction of the distance from below the centre of mass to the edge of the
-// soles, and that of a leg takes no more than a fraction of the strength of any joint of the legs that stand meanwhile.
+// at rest. The greatest effort of gravity is subtracted from a joint's strength. The acceleration of one joint also
+// moves the zero moment point by no more than a fraction of the distance from below the centre of mass to the edge of
+// the soles, and that of a leg takes no more than a fraction of the strength of any joint of the legs that stand
+// meanwhile.
 std::vector<double> easy_accelerations(const Character& character, const DynamicFigure& figure);
 
 }  // namespace contort

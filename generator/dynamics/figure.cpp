@@ -156,7 +156,7 @@ class FigureBuilder {
     for (const int dof : {0, 1, 2, 3}) out.push_back({0, dof, Vec3(0.0), false});
   }
 
-  // Whether feet would move along: some leg hangs on the joint.
+  // Returns true if feet would move along: some leg hangs on the joint.
   bool carries_feet(int moved) const {
     return std::ranges::any_of(legs_, [&](const Leg& leg) {
       int j = joint(character_.parts()[at(leg.part)].first_joint).parent;

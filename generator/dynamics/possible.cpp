@@ -171,8 +171,8 @@ class PossibleTarget {
     overloaded_.push_back(overloads(bears(frame), {torque, force}) ? 1 : 0);
   }
 
-  // Whether a leg's joint needs more effort than it has while one sole bears everything. `forces_` are those of a figure
-  // that nothing bears, and `ground` what the ground gives, about the root's origin.
+  // Returns true if a leg's joint needs more effort than it has while one sole bears everything. `forces_` are those of
+  // a figure that nothing bears, and `ground` what the ground gives, about the root's origin.
   bool overloads(std::uint8_t bearing, const SpatialForce& ground) {
     if (std::popcount(bearing) != 1) return false;
     for (const int dof : figure_.soles[at(std::countr_zero(bearing))].chain_dofs)
@@ -278,7 +278,7 @@ class PossibleTarget {
     for (int again = 0; again < kLowerings && lower(missing_m_); ++again) keep_all_soles();
   }
 
-  // Whether a leg that stands is as long as its joints allow: a figure that follows it would leave their ranges.
+  // Returns true if a standing leg is stretched to its full length: a figure that follows it would overstretch it.
   bool is_stretched() {
     for (int f = 0; f < motion_.frame_count; ++f) {
       forward_kinematics(character_, motion_.root[at(f)], motion_.row(f), world_);

@@ -88,7 +88,7 @@ class Aim {
 
   double* coords(int frame, const Joint& joint) { return &motion_.row(frame)[at(joint.coord)]; }
 
-  // Where the figure comes to: every joint with what it misses of its second differences (tracker.h).
+  // Sets followed_ to the pose that a tracked figure reaches: it misses a part of each second difference (tracker.h).
   void follow(int frame) {
     followed_.assign(motion_.row(frame).begin(), motion_.row(frame).end());
     if (missed_ <= 0.0 || frame == 0 || frame == motion_.frame_count - 1) return;

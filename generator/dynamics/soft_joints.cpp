@@ -96,7 +96,7 @@ class Softener {
     for (std::size_t i = 0; i < size; ++i) motion.row(frame)[first + i] = sum[i] / weights;
   }
 
-  // Of two quaternions: below 0, one of them is on the far side. Its negative is the same rotation.
+  // The dot product of two quaternions; below 0, one of them is on the far side. Its negative is the same rotation.
   static double dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]; }
 
   const Character& character_;

@@ -122,7 +122,7 @@ void Standing::find_rows(const EquationOfMotion& equation, const FootContacts& c
   for (const auto& [dof, effort] : spared_) add_effort_row(ground_, equation.dynamics, dof, effort, zeros_, rows_);
 }
 
-// Whether any foot is in the air, which then comes later.
+// Returns true if any foot is in the air, which then comes later.
 bool Standing::ask_less_of_swing(FootContacts& contacts, double share, const Actuation& actuation) {
   bool any = false;
   for (int i = 0; i < contacts.sole_count(); ++i) {

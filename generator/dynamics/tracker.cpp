@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kJointStiffness = 12.0;  // rad/s
 
-// How fast the root comes back, rad/s: along the ground, up and down, and in turns.
+// Frequencies with which the root comes back, rad/s: along the ground, up and down, and in turns.
 struct RootStiffness {
   double level = 0.0;
   double height = 0.0;
@@ -66,7 +66,7 @@ Vec3 rate_at_start(const Link& link, const TargetMotion& target, double tick_s) 
   return vec_at(rates) - 0.5 * tick_s * vec_at(acceleration);
 }
 
-// What does not change from joint to joint in a tick.
+// Values that all joints share in a tick.
 struct Tick {
   const TargetMotion& target;
   double frame;

@@ -120,7 +120,7 @@ std::vector<State> all_states(const AimGeometry& geometry, const AimSteps& steps
   return states;
 }
 
-// Whether the posture differs from all of the cell's, which are the last ones of `kept`.
+// Returns true if the posture differs from all of the cell's, which are the last ones of `kept`.
 bool differs(const AimGeometry& geometry, std::span<const double> coords, std::span<const double> kept) {
   const std::size_t size = coords.size();
   for (std::size_t at = 0; at < kept.size(); at += size)

@@ -2,11 +2,11 @@
 // through their ranges (aim_states.h), once per geometry; immutable, so that threads may share it.
 // docs/internals/aim.md.
 //
-// Directions are binned into the 1,944 cells, about 5 degrees wide, of a cube map. Each cell keeps at most per_cell postures
-// that differ from one another, of those with some room to their joint limits: two thirds of them the ones nearest to rest,
-// the others those that are sighted, with the line of aim near the chain's first joint (a gun at the shoulder). A table
-// therefore holds at most 1,944 * per_cell postures of coord_count + 6 doubles: 1.3 MB for an arm of 8 coordinates with 6
-// postures per cell.
+// Directions are binned into the 1,944 cells, about 5 degrees wide, of a cube map. Each cell keeps at most per_cell
+// postures that differ from one another, of those with some room to their joint limits: two thirds of them the ones
+// nearest to rest, the others those that are sighted, with the line of aim near the chain's first joint (a gun at the
+// shoulder). A table therefore holds at most 1,944 * per_cell postures of coord_count + 6 doubles: 1.3 MB for an arm of
+// 8 coordinates with 6 postures per cell.
 #pragma once
 
 #include <cstdint>

@@ -39,7 +39,7 @@ std::size_t most_postures(const AimTableOptions& options) {
   return static_cast<std::size_t>(kAimCells) * static_cast<std::size_t>(options.per_cell);
 }
 
-// Whether the header is ours, and all bytes that it announces are there.
+// Returns true if the header is ours, and all bytes that it announces are there.
 Result<Done> check_frame(std::string_view bytes, const AimGeometry& geometry, const AimTableOptions& options) {
   if (bytes.size() < kHeaderBytes + kHashBytes || !bytes.starts_with(kMagic))
     return refused("damaged", "This is not an aim table, or only the beginning of one.");

@@ -39,7 +39,7 @@ Vec3 way_between(const Joint& joint, const Posture& from, const Posture& to) {
   return joint_way_vector(joint, from.coords.data() + joint.coord, to.coords.data() + joint.coord);
 }
 
-// Whether the joint's speed changes slowly enough.
+// Returns true if the joint's speed changes slowly enough.
 bool keeps_pace(const Character& character, int j, const Past& past, const Posture& shown) {
   const Joint& joint = character.joint(j);
   const Vec3 step = way_between(joint, past.before, shown), last = way_between(joint, past.earlier, past.before);
@@ -83,7 +83,7 @@ struct Clearance::Case {
       else if (feet.is_planted(at(leg)))
         feet.plant(at(leg), world, shown.coords);
   }
-  // Whether a leg that the limb carries keeps its foot where it stood.
+  // Returns true if a leg that the limb carries keeps its foot where it stood.
   bool plants() const {
     return std::ranges::any_of(limb.legs, [&](int leg) {
       return feet.is_planted(at(leg)) && !limb.is_its_own(feet.legs()[at(leg)]);
@@ -109,8 +109,8 @@ struct Clearance::Case {
     });
   }
 
-  // A blend along the edge of a range may be longer than its ends are apart. The knee of a leg that starts from straight
-  // gets fast at once, and must be able to stop at once.
+  // A blend along the edge of a range may be longer than its ends are apart. The knee of a leg that starts from
+  // straight gets fast at once, and must be able to stop at once.
   bool is_slow() const {
     const double share = is_lifted || was_lifted || plants() ? kLifted : 1.0;
     return all_joints([&](int j) { return length(step_of(j)) <= share * greatest_step(j); });
@@ -118,7 +118,7 @@ struct Clearance::Case {
   bool is_smooth() const {
     return all_joints([&](int j) { return keeps_pace(character, j, past, shown); });
   }
-  // Whether the limb is clear at the end of the way that it takes to stop, if it is too fast to stop at once.
+  // Returns true if the limb is clear at the end of the way that it takes to stop, if it is too fast to stop at once.
   bool can_stop() {
     const double most = past.frame_s / kRise_s;
     if (all_joints([&](int j) { return length(step_of(j)) <= most * greatest_step(j); })) return true;
@@ -129,7 +129,8 @@ struct Clearance::Case {
     place();
     return is_clear_there;
   }
-  // Whether the limb is clear on its way from the frame before, if it goes so far that it could pass through something.
+  // Returns true if the limb is clear on its way from the frame before, if it goes so far that it could pass through
+  // something.
   bool is_clear_between() {
     if (all_joints([&](int j) { return length(step_of(j)) <= kFarStep * greatest_step(j); })) return true;
     for (const int p : limb.parts) copy_part(character, at(p), shown, spare);
@@ -178,8 +179,8 @@ struct Clearance::Case {
     }
   }
 
-  // What can stop after a step may be wanted elsewhere next, where no share of the way is smooth: it loses its speed on
-  // the way that it was on.
+  // A joint that can stop after a step may be wanted elsewhere next, where no share of the way is smooth: it loses its
+  // speed on the way that it was on.
   bool slow_down() {
     const double enough = std::exchange(enough_m, -kTooNear_m);
     const bool slows = std::ranges::any_of(kCoasts, [&](double steps) {

@@ -56,7 +56,7 @@ Rigid put_down(const Quat& turn, const Vec3& at, const Foothold& foothold) {
   return {turn * shortest_arc(Vec3(0, 1, 0), normal), Vec3(at.x, foothold.height_m, at.z)};
 }
 
-// Whether a foot that would be put down is seen there already: then it is left as it is.
+// Returns true if a foot that would be put down is seen there already: then it is left as it is.
 bool stands_there(const Rigid& placed, const Rigid& seen) {
   constexpr double kStands_m = 0.002;
   const Vec3 up_seen = seen.q * Vec3(0, 1, 0), up_placed = placed.q * Vec3(0, 1, 0);

@@ -48,8 +48,8 @@ double stopping_in_range(const Joint& joint, double now, double speed, double ch
 // Rounding puts a joint at the end of its range a little beyond.
 bool is_inside(const Joint& joint, const double* coords) { return normalised_margin(joint, coords) >= -1e-6; }
 
-// A ball that comes to the edge of its range goes on along it, in another direction: it slows down before, so that it can
-// turn at once.
+// A ball that comes to the edge of its range goes on along it, in another direction: it slows down before, so that it
+// can turn at once.
 Vec3 braking_at_edge(const Joint& ball, const double* now, const Vec3& aim, double speed, double most_speed,
                      double most_change) {
   constexpr double kTurns = 0.3;  // of the greatest speed
@@ -62,8 +62,8 @@ Vec3 braking_at_edge(const Joint& ball, const double* now, const Vec3& aim, doub
   return shortened(aim, std::max(kTurns * most_speed, speed - most_change));
 }
 
-// Goes a step, along the edge of the range where it would leave that. Where the edge would make it longer than the joint
-// can go, it is shortened, at last to nothing.
+// Goes a step, along the edge of the range where it would leave that. Where the edge would make it longer than the
+// joint can go, it is shortened, at last to nothing.
 void go_inside(const Joint& joint, const double* now, const Vec3& step, bool stays_inside, double* out) {
   const double most = length(step) * 1.01;
   for (const double share : {1.0, 0.5, 0.25, 0.0}) {
@@ -135,7 +135,7 @@ bool JointPath::follow_joint(int j, double* coords) {
   return true;
 }
 
-// Whether a joint of one coordinate rests where it is wanted: most joints do in most frames.
+// Returns true if a joint of one coordinate rests where it is wanted: most joints do in most frames.
 bool JointPath::rests(int j, double wanted) const {
   const Joint& joint = character_->joint(j);
   return joint.kind != JointKind::ball && now_[at(joint.coord)] == wanted && wanted_[at(joint.coord)] == wanted &&

@@ -86,7 +86,7 @@ void LimbRoom::begin_bodies() {
   ways_.assign(character_->judged_colliders().size(), Vec3(0.0));
 }
 
-// Whether a limb is this one or carried by it.
+// Returns true if a limb is this one or carried by it.
 bool LimbRoom::is_moved_by(int limb, int other) const {
   if (other < 0) return false;
   const std::vector<int>& carried = limbs_[at(limb)].carried;
@@ -182,7 +182,7 @@ double LimbRoom::collider_distance_m(const JudgedPair& pair, double band_m) {
   return least > band_m ? kFar : least;
 }
 
-// Whether the balls that hold two bodies are no farther apart than the band.
+// Returns true if the balls that hold two bodies are no farther apart than the band.
 bool LimbRoom::are_near(const Pair& pair, double band_m) const {
   const Vec3 apart = ball_world_m_[at(pair.bodies.body_b)] - ball_world_m_[at(pair.bodies.body_a)];
   const double reach = pair.radii_m + band_m;
@@ -196,7 +196,7 @@ double LimbRoom::distance_m(const Pair& pair, double band_m) {
   return collider_distance_m(pair.bodies, band_m);
 }
 
-// Of the hand and the object that either limb holds.
+// Returns true if one body is a hand and the other one the object that it holds.
 bool LimbRoom::is_held(const Pair& pair) const {
   return holds(pair.bodies.body_a, pair.bodies.body_b) || holds(pair.bodies.body_b, pair.bodies.body_a);
 }
@@ -313,7 +313,7 @@ bool LimbRoom::touches(std::size_t part, std::span<const Rigid> world) {
   });
 }
 
-// Whether one body is of the hand, and the other one the object.
+// Returns true if `body` belongs to the hand that holds the body `object`.
 bool LimbRoom::is_of(const HeldObject& held, int body, int object) const {
   if (held.body < 0 || held.body != object) return false;
   int joint = character_->bodies()[at(body)].joint;

@@ -24,8 +24,8 @@ bool fits(const Character& character, const Leg& leg, std::span<Rigid> world, co
          std::ranges::all_of(leg.joints, [&](int j) { return is_in_range(character.joint(j), row); });
 }
 
-// Tries angles in steps of 0.1 rad, and answers the smallest one up to the first for which `is_good` is true; negative if
-// it is true for none.
+// Tries angles in steps of 0.1 rad, and answers the smallest one up to the first for which `is_good` is true; negative
+// if it is true for none.
 template <class Good>
 double least_angle(Good is_good) {
   constexpr double kStep_rad = 0.1, kMost_rad = 1.2;

@@ -25,8 +25,8 @@ std::array<Vec3, 4> corners_of(const Leg& leg) {
           Vec3(leg.high_m.x, 0.0, leg.low_m.z), Vec3(leg.high_m.x, 0.0, leg.high_m.z)};
 }
 
-// The height that a point must have at this distance from where it stood. It begins flat, so that the knee, which starts
-// from straight, begins slowly.
+// The height that a point must have at this distance from where it stood. It begins flat, so that the knee, which
+// starts from straight, begins slowly.
 double lift_at(double distance_m) { return kLift_m * minimum_jerk(std::min(1.0, distance_m / kFar_m)); }
 
 }  // namespace

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kClearance_m = 0.015;  // of a swinging foot
 
-// From 0 to 1 at an even speed between two ramps, along which the speed goes as 3u^2 - 2u^3: a swing nearly as gentle as
-// that of people, whose ankles go at most 3.1 to 3.4 times as fast as they walk. A minimum-jerk one has 4.9 times.
+// From 0 to 1 at an even speed between two ramps, along which the speed goes as 3u^2 - 2u^3: a swing nearly as gentle
+// as that of people, whose ankles go at most 3.1 to 3.4 times as fast as they walk. A minimum-jerk one has 4.9 times.
 double even_way(double u, double rise, double fall) {
   const auto ramped = [](double time, double ramp) {
     const double v = std::min(time / ramp, 1.0);

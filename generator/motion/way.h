@@ -1,4 +1,5 @@
-// The time that a part takes, at ease, from one posture to another: how long an action blends in if its use does not say.
+// The time that a part takes, at ease, from one posture to another: how long an action blends in if its use does not
+// say.
 #pragma once
 
 #include "model/character/character.h"

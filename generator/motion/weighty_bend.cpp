@@ -17,7 +17,7 @@ constexpr double kLeans_rad_s2 = 12.0;
 constexpr int kStops = 24;
 constexpr int kSteps = 32;  // of a course
 
-// Whether hips that go so far down stay within both accelerations all the way.
+// Returns true if hips that go so far down stay within both accelerations all the way.
 bool is_calm(const BendCourse& course, double deepest) {
   const double step_s = course.bend.takes_s / kSteps;
   const auto root_at = [&](int step) {
@@ -56,14 +56,14 @@ Vec3 mean_place_m(std::span<const Rigid> soles) {
   return sum / static_cast<double>(soles.size());
 }
 
-// Where the weight should be.
+// The place over which the weight should be.
 struct Bearing {
   Vec3 point_m{0.0};
   double around_m = 0.0;  // as near to it as this is good enough
 };
 
-// The mean over the legs: of a sole that lies as it lay at first at an offset from it, of one that has risen on its toes
-// a little behind their tips.
+// The mean over the legs: of a sole that lies as it lay at first at an offset from it, of one that has risen on its
+// toes a little behind their tips.
 Bearing bearing_of(std::span<const Leg> legs, std::span<const Rigid> first, std::span<const Rigid> soles,
                    const Vec3& from_sole) {
   constexpr double kRisen_rad = 0.02, kBehindTips_m = 0.03, kOfLength = 0.25;

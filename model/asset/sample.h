@@ -8,8 +8,8 @@
 namespace contort {
 
 // Returns the channel's value at a time; before the first key and after the last one, the value of that key. Linear
-// rotations take the shorter arc, and splines are normalised, both by the glTF standard (appendix C). sample_rotation is
-// for rotation channels, sample_vector for the others.
+// rotations take the shorter arc, and splines are normalised, both by the glTF standard (appendix C). sample_rotation
+// is for rotation channels, sample_vector for the others.
 Quat sample_rotation(const AssetChannel& channel, double t_s);
 Vec3 sample_vector(const AssetChannel& channel, double t_s);
 

@@ -17,9 +17,9 @@ struct SplinePeak {
 
 // Returns the fastest moment, at most 1 % slower than the true peak; it stops looking above `most_rad`.
 //
-// With q the spline and q' its derivative, a turn has the speed 2 |q ^ q'| / |q|^2, and ^ is the outer product. Numerator
-// and denominator are polynomials in Bernstein's form, whose coefficients are bounds on their values. Pieces that may be
-// faster than the fastest moment found so far are halved.
+// With q the spline and q' its derivative, a turn has the speed 2 |q ^ q'| / |q|^2, and ^ is the outer product.
+// Numerator and denominator are polynomials in Bernstein's form, whose coefficients are bounds on their values. Pieces
+// that may be faster than the fastest moment found so far are halved.
 SplinePeak fastest_turn(const BezierTurn& spline, double most_rad);
 
 }  // namespace contort

@@ -1,5 +1,5 @@
-// StageEvaluator: the one path from a stage to findings; and the manifest of checks with an exemplar on either side of each
-// limit.
+// StageEvaluator: the one path from a stage to findings; and the manifest of checks with an exemplar on either side of
+// each limit.
 #include <gtest/gtest.h>
 
 #include <map>

@@ -78,7 +78,8 @@ void expect_forward_undoes_inverse(Scene& scene) {
   }
 }
 
-// Six right-hand sides at once give the very bits of one after another. Every second entry is 0, as of a force on one limb.
+// Six right-hand sides at once give the very bits of one after another. Every second entry is 0, as of a force on one
+// limb.
 void expect_six_at_once(Scene& scene) {
   const std::size_t n = scene.n();
   std::vector<double> m = scene.matrix();

@@ -56,8 +56,8 @@ class ChangedSwing final : public Generator {
   swing::SwingGenerator swing_;
 };
 
-// It turns three times as far as it should for angles below -115 degrees. A swing to such an angle is then faster than its
-// joints allow.
+// It turns three times as far as it should for angles below -115 degrees. A swing to such an angle is then faster than
+// its joints allow.
 struct SwingWide {
   void operator()(Motion& motion) const {
     for (double& angle_rad : motion.coords)

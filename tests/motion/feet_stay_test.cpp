@@ -99,7 +99,8 @@ TEST_P(FeetStay, AWalkThatFadesOutStaysWhereItWent) {
   EXPECT_EQ(of_feet(walk(30)), std::vector<std::string>{});
 }
 
-// Fore legs go along a course while the trunk that carries them turns: they bent beyond their ranges to reach the ground.
+// Fore legs go along a course while the trunk that carries them turns: they bent beyond their ranges to reach the
+// ground.
 TEST(FeetStay, WhereATrunkTurnsOverACourse) {
   StageEvaluator evaluator;
   for (const char* course : {"run", "walk", "squat"})

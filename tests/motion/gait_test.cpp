@@ -82,8 +82,8 @@ class Walks : public ::testing::Test {
   }
 
  private:
-  // A sole stands while its corners' mean keeps its height to a tenth of a millimetre and is less than a centimetre above
-  // the ground: at the top of a low swing it keeps its height, too.
+  // A sole stands while its corners' mean keeps its height to a tenth of a millimetre and is less than a centimetre
+  // above the ground: at the top of a low swing it keeps its height, too.
   Walked measure(const Stage& stage) {
     const Motion motion = generate(stage);
     Walked out;

@@ -54,8 +54,8 @@ bool shows(const Spec& spec, StageEvaluator& evaluator, const std::string& check
   return std::ranges::any_of(findings_in(spec, evaluator), [&](const Finding& finding) { return finding.check == check; });
 }
 
-// The hand cannot go up because the thigh is too near, and the thigh cannot go back because of the hand: the leg stayed in
-// the air for good.
+// The hand cannot go up because the thigh is too near, and the thigh cannot go back because of the hand: the leg stayed
+// in the air for good.
 TEST(Landing, ALegComesBackPastAHandThatWaitsForIt) {
   ActionUse hit = use("hit_reaction", "leg_left", 1, 30, {});
   hit.blend_in_frames = ActionUse{}.blend_in_frames;

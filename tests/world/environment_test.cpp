@@ -52,7 +52,8 @@ TEST(Environment, HeightsAreBilinearAndGoOnBeyondTheEdges) {
   EXPECT_DOUBLE_EQ(ground.height_at(99.0, -99.0), 2.0);
 }
 
-// Callers skip the balls that are surely over the ground, so the quick look may never be wrong; and it has to be of use.
+// Callers skip the balls that are surely over the ground, so the quick look may never be wrong; and it has to be of
+// use.
 TEST(Environment, AQuickLookAtTheGroundIsNeverWrongAndOfUse) {
   std::mt19937_64 random(3);
   const auto any = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
