@@ -132,8 +132,8 @@ GaitParams run_on_many(std::span<const Leg> legs, double speed_m_s) {
 }
 
 // People keep the cadence of 0.8 sqrt(g / l) steps a second when they run, and stand for less of it the faster they are
-// (39 % at 2.5 m/s, 30 % at 4 m/s). The other numbers were searched for curves of hip, knee and ankle like those of people
-// (CMU 02_03, DeepMimic run) and for runs of human and mech within their joints' speeds.
+// (39 % at 2.5 m/s, 30 % at 4 m/s). The other numbers were searched for curves of hip, knee and ankle like those of
+// people (CMU 02_03, DeepMimic run) and for runs of human and mech within their joints' speeds.
 GaitParams run_on_two(std::span<const Leg> legs, double speed_m_s, double roll_share) {
   const double length_m = least_length_m(legs), relative = root_of_froude(legs, speed_m_s);
   GaitParams params;
@@ -206,8 +206,8 @@ GaitParams run_params(std::span<const Leg> legs, double speed_m_s, double headin
 // The numbers of the next two were searched for walks of human and mech from 0.4 to 1.5 m/s and runs of 1.5 to 5 m/s.
 namespace {
 
-// Steps are shorter and quicker, because a leg that is far from the hips needs much effort, and legs swing for longer. A
-// heel is lifted when the other foot has landed: an ankle is too weak to carry all of the weight on the toes.
+// Steps are shorter and quicker, because a leg that is far from the hips needs much effort, and legs swing for longer.
+// A heel is lifted when the other foot has landed: an ankle is too weak to carry all of the weight on the toes.
 void spare_walker(GaitParams& params) {
   params.cycle_s *= 0.93, params.duty -= 0.06, params.lift_m *= 0.8;
   params.heel_up_rad *= 0.7, params.roll.heel_rises = std::max(params.roll.heel_rises, 0.82);
@@ -219,10 +219,11 @@ void spare_walker(GaitParams& params) {
 // lowest in the middle of the stance: then the ground's force is greatest while the foot is under the hips.
 void spare_runner(GaitParams& params) {
   params.trot = false;
-  params.cycle_s *= 1.2, params.duty = 0.52, params.under = 0.3, params.beat = 0.5;
+  params.cycle_s *= 1.2, params.duty = 0.53, params.under = 0.3, params.beat = 0.5;
   params.bounce_m *= 0.5, params.lower_m *= 0.8;
   params.heel_up_rad *= 0.6, params.roll.heel_rises = 0.78;
   params.rise = 0.48, params.acceleration_m_s2 = 0.7;
+  params.wait = 0.03, params.turn_of_cycle_rad *= 0.35;
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ struct GaitParams {
   double cycle_s = 1.0;      // > 0, between two steps of one foot
   double duty = 0.6;         // (0, 1): the fraction of the cycle in which a foot stands
   double under = 0.5;        // (0, 1): the fraction of the stance after which the hips are over the foot
+  double wait = 0.0;         // [0, 1 - duty): fraction of a cycle by which all steps come later: weight goes first
   int lead = 0;              // the side that stands when it begins: 0 left, 1 right
   bool trot = false;         // run: legs cross-wise together; else rows one after another
   double acceleration_m_s2 = 2.2;  // mean acceleration of the root, from rest to its speed and back
@@ -24,7 +25,7 @@ struct GaitParams {
   double lift_m = 0.08;      // least lift of a swinging foot
   double lower_m = 0.0;      // depth of the root below its height at rest
   double bounce_m = 0.0;     // twice in a cycle the root goes up between the feet (> 0, run), or down (< 0, walk)
-  double beat = 0.5;         // (0, 1): the fraction of the stance after which the root is lowest (run), or highest (walk)
+  double beat = 0.5;         // (0, 1): fraction of the stance after which the root is lowest (run) or highest (walk)
   double lean_rad = 0.0;     // forward lean of the root
   double heel_up_rad = 0.0;  // >= 0: greatest angle of a sole about its toes
   double toes_up_rad = 0.0;  // >= 0: angle of a sole that comes down on its heel

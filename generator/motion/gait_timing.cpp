@@ -51,8 +51,8 @@ GaitTiming::GaitTiming(const GaitParams& params, std::span<const Leg> legs, doub
 
 double GaitTiming::phase(const Leg& leg) const {
   const int side = leg.side == params_.lead ? 0 : 1;
-  if (params_.trot) return 0.5 * ((side + leg.row) % 2);
-  return 0.5 * side + 0.5 * leg.row / rows_;
+  if (params_.trot) return 0.5 * ((side + leg.row) % 2) - params_.wait;
+  return 0.5 * side + 0.5 * leg.row / rows_ - params_.wait;
 }
 
 double GaitTiming::since_landing(const Leg& leg, double time_s) const {
