@@ -20,6 +20,9 @@ class LooseMotion {
   void let_go();
   void take_hold() { is_loose_ = false; }
 
+  // False until move was called since the figure let go.
+  bool knows_contacts() const { return has_momentum_; }
+
   // Call this when velocities were changed from outside, such as by a blow.
   void forget_momentum() { has_momentum_ = false; }
 

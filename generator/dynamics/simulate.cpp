@@ -70,12 +70,12 @@ class Simulation {
     s_.contacts.follow_plan(0.0, s_.equation.dynamics);  // soles bear from the first frame on, also a blow in it
   }
 
-  // Whether something acts from outside, or did a short while ago.
+  // Returns true if something acts from outside, or did a short while ago.
   bool is_disturbed() const { return !figure_.loads.empty() || is_struck(); }
   bool is_struck() const { return struck_frame_ >= 0 && frame_ - struck_frame_ < kRecovers_s * motion_.rate_hz; }
 
-  // How far ahead joints look for the ends of their ranges. A target comes to them as softly as it must; a figure that
-  // keeps to its target and looked farther would slow down sooner than it, and arrive late.
+  // Returns the time by which joints look ahead for the ends of their ranges. A target comes to them as softly as it
+  // must; a figure that keeps to its target and looked farther would slow down sooner than it, and arrive late.
   double ends_ahead_s() const { return is_disturbed() ? shortest_horizon_s(tick_s_) : kEndsAhead * tick_s_; }
 
   bool leg_overbends() const {
@@ -134,7 +134,7 @@ class Simulation {
     if (moves)
       move();
     else if (s_.loose.is_loose())
-      record_footing();
+      look_at_footing();
     if (s_.after_tick) s_.after_tick();
   }
 
@@ -210,6 +210,16 @@ class Simulation {
   void move_loosely(const SpatialForce& momentum) {
     s_.loose.move(character_, s_.equation, setup_.touches, s_.bodies.contacts(), environment_, momentum);
     record_footing();
+  }
+
+  // In the last frame, which is not left. A figure that has let go just now has found no contacts yet.
+  void look_at_footing() {
+    if (s_.loose.knows_contacts()) return record_footing();
+    s_.velocity_before = state_.velocity;
+    const SpatialForce momentum = momentum_of(body_, s_.equation.dynamics, s_.equation.mass, state_.velocity);
+    add_scaled(tick_s_, s_.actuation.acceleration, state_.velocity);
+    move_loosely(momentum);
+    state_.velocity = s_.velocity_before;
   }
 
   void record_footing() {

@@ -75,6 +75,26 @@ int fallen_of(const std::string& name, int count, double most_N_s) {
   return fallen;
 }
 
+// A figure that is struck in its last frame lets go there, and has had no tick to find its contacts in.
+TEST(Simulate, TheFootingInTheLastFrameDoesNotDependOnEarlierMotions) {
+  const auto struck = [](int frames, double impulse_N_s) {
+    Spec spec;
+    spec.character.name = "human";
+    spec.hold_frames = frames;
+    spec.dynamics = {Mode::dynamic, 0, {}, {{10, "torso", "", {}, {impulse_N_s, 0.0, 0.0}}}};
+    return *build_stage(spec, stock_library());
+  };
+  const Stage in_last_frame = struck(10, 300.0), lies = struck(120, 400.0);
+  GenerateScratch fresh, used;
+  Motion first, fallen, again;
+  generate(in_last_frame, fresh, first);
+  generate(lies, used, fallen);
+  generate(in_last_frame, used, again);
+  EXPECT_EQ(fallen.response.stances.back().footing, Footing::fallen);
+  EXPECT_NE(first.response.stances.back().footing, Footing::standing);
+  EXPECT_EQ(again.response, first.response);
+}
+
 TEST(Simulate, AnyBlowStaysFiniteAndHardOnesFellTheFigure) {
   for (const char* name : {"human", "mech", "quadruped"}) EXPECT_GT(fallen_of(name, 40, 200.0), 0) << name;
 }
