@@ -260,7 +260,8 @@ GaitFrame Gait::at(const GaitParams& params, double time_s, double duration_s) {
                      cycle.swing == 0.0 || step.bump_m == 0.0};
   }
   swing_arms(params, timing, time_s, moving, frame);
-  const double bounce_m = params.bounce_m * root_beat(params, time_s / params.cycle_s) * timing.step_share(time_s);
+  const double bounce_m =
+      params.bounce_m * root_beat(params, time_s / params.cycle_s - params.wait) * timing.step_share(time_s);
   frame.stands_at = course(params, timing, time_s);
   frame.root = root_over(feet, frame.stands_at, moving * (params.lower_m - bounce_m));
   frame.root.q = frame.root.q * axis_angle(Vec3(1, 0, 0), params.lean_rad * timing.step_share(time_s));
