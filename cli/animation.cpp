@@ -6,12 +6,10 @@
 
 #include "formats/detect/file_format.h"
 #include "formats/gltf/read.h"
-#include "formats/mocap/asf.h"
 #include "formats/mocap/bvh.h"
 #include "formats/mocap/frame.h"
 #include "model/core/file_kind.h"
 #include "model/core/files.h"
-#include "model/core/inside_folder.h"
 
 namespace contort::cli {
 
@@ -26,26 +24,16 @@ std::string ending_of(const fs::path& path) {
   return ending;
 }
 
-std::size_t common_prefix(const std::string& a, const std::string& b) {
-  return static_cast<std::size_t>(std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin());
-}
-
 Result<Animation> read_take(const std::string& path, const AnimationOptions& options) {
   if (const auto other = other_kind(path, beginning_of(path, kKindBytes), kAnimationFiles);
       other && format_of_bytes(beginning_of(path, kKindBytes)) == FileFormat::none)  // before searching for a skeleton
     return Issue{"amc.wrong_kind", "", other->text};
-  const Result<std::string> asf =
-      options.skeleton.empty() ? find_skeleton(path) : Result<std::string>(options.skeleton);
-  if (!asf) return asf.issue();
-  if (options.skeleton.empty())  // a skeleton that was found automatically may be a link that came with the take
-    if (const Result<Done> inside = check_inside(fs::path(*asf).parent_path().string(), *asf); !inside)
-      return inside.issue();
-  Result<AsfSkeleton> skeleton = read_asf(*asf);
-  if (!skeleton) return Issue{skeleton.issue().code, skeleton.issue().pointer, *asf + ": " + skeleton.issue().text};
-  Result<AmcMotion> motion = read_amc(path, *skeleton);
-  if (!motion) return motion.issue();
-  Animation out{to_asset(*skeleton, *motion, options.rate_hz, fs::path(path).stem().string()), {}};
-  out.take = Take{std::move(skeleton).value(), std::move(motion).value()};
+  Result<Take> take = contort::read_take(path, options.skeleton);
+  if (!take && take.issue().code == "check.no_skeleton")
+    return Issue{take.issue().code, "", take.issue().text + "; name it with --skeleton"};
+  if (!take) return take.issue();
+  Animation out{to_asset(*take, options.rate_hz, path), {}};
+  out.take = std::move(take).value();
   return out;
 }
 
@@ -109,27 +97,6 @@ Result<Animation> read_animation(const std::string& path, const AnimationOptions
   }
   const std::optional<Issue> other = other_than_animation(path, kAnimationFiles);
   return other ? *other : Issue{"file.unreadable", "", path + " is no file that can be read"};
-}
-
-Result<std::string> find_skeleton(const std::string& amc_path) {
-  const fs::path amc(amc_path);
-  const fs::path folder = amc.has_parent_path() ? amc.parent_path() : fs::path(".");
-  std::vector<std::string> found;
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
-    if (ending_of(entry.path()) == ".asf") found.push_back(entry.path().string());
-  if (found.size() == 1) return found.front();
-  std::size_t best = 0;
-  std::vector<std::string> nearest;  // names with the longest common beginning
-  for (const std::string& path : found) {
-    const std::size_t length = common_prefix(fs::path(path).stem().string(), amc.stem().string());
-    if (length > best) nearest.clear(), best = length;
-    if (length == best && length > 0) nearest.push_back(path);
-  }
-  if (nearest.size() == 1) return nearest.front();
-  return Issue{"check.no_skeleton", "",
-               (found.empty() ? "there is no .asf beside " : "more than one .asf may belong to ") + amc_path +
-                   "; name it with --skeleton"};
 }
 
 namespace {

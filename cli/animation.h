@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "formats/mocap/amc.h"
+#include "formats/mocap/take.h"
 #include "formats/table/joint_table.h"
 #include "model/asset/asset.h"
 #include "model/core/result.h"
@@ -14,11 +15,6 @@
 namespace contort::cli {
 
 // An animation as it was read. An .amc has limits of its own, in its skeleton.
-struct Take {
-  AsfSkeleton skeleton;
-  AmcMotion motion;
-};
-
 struct Animation {
   Asset asset;
   std::optional<Take> take{};
@@ -27,7 +23,7 @@ struct Animation {
 
 struct AnimationOptions {
   std::string skeleton;    // The .asf of an .amc; "": find_skeleton.
-  double rate_hz = 120.0;  // The frame rate of an .amc, which does not state it.
+  double rate_hz = kTakeRate_hz;  // The frame rate of an .amc, which does not state it.
   double table_rate_hz = 0.0;  // Rows per second of a table without times; 0: it has times.
   double bvh_rate_hz = 0.0;  // The frame rate of a .bvh, instead of its own; 0: its own.
   std::string unit;          // The unit of lengths of a .bvh ("cm") or of angles of a table ("deg"); "": not given.
@@ -47,10 +43,6 @@ bool is_table(const std::string& path);      // true for a table of joint values
 std::optional<Issue> other_than_animation(const std::string& path, const std::string& expected);
 
 Result<Animation> read_animation(const std::string& path, const AnimationOptions& options);
-
-// The only .asf in the folder of an .amc; of several, the one whose name has the longest beginning in common. Code
-// check.no_skeleton if there is none, or if several have equally similar names.
-Result<std::string> find_skeleton(const std::string& amc_path);
 
 struct Unreadable {
   std::string file;

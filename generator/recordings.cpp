@@ -5,6 +5,7 @@
 
 #include "formats/gltf/read.h"
 #include "formats/mocap/bvh.h"
+#include "formats/mocap/take.h"
 #include "model/core/files.h"
 #include "model/core/inside_folder.h"
 
@@ -13,11 +14,19 @@ namespace contort {
 namespace {
 
 bool is_recording(const std::filesystem::path& path) {
-  return path.extension() == ".glb" || path.extension() == ".gltf" || path.extension() == ".bvh";
+  const std::string ending = path.extension().string();
+  return ending == ".glb" || ending == ".gltf" || ending == ".bvh" || ending == ".amc";
+}
+
+Result<Asset> read_amc_asset(const std::string& path) {
+  const Result<Take> take = read_take(path);
+  if (!take) return take.issue();
+  return to_asset(*take, kTakeRate_hz, path);
 }
 
 Result<Asset> read_recording(const std::filesystem::path& path) {
-  return path.extension() == ".bvh" ? read_bvh(path.string()) : read_gltf(path.string());
+  if (path.extension() == ".bvh") return read_bvh(path.string());
+  return path.extension() == ".amc" ? read_amc_asset(path.string()) : read_gltf(path.string());
 }
 
 }  // namespace

@@ -8,8 +8,9 @@
 
 namespace contort {
 
-// Adds every .glb, .gltf and .bvh of `folder` to `into.recordings`, by its file name without the ending. Codes
-// "library.unreadable", "recording.duplicate_name" and those of read_gltf and read_bvh.
+// Adds every .glb, .gltf, .bvh and .amc of `folder` to `into.recordings`, by its file name without the ending. An .amc
+// counts as 120 frames per second and needs its .asf beside it (formats/mocap/take.h). Codes "library.unreadable",
+// "recording.duplicate_name" and those of read_gltf, read_bvh and read_take.
 Result<Done> load_recordings(const std::string& folder, Library& into);
 
 }  // namespace contort

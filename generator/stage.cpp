@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "generator/motion/plant_feet.h"
 #include "model/core/number_text.h"
 #include "model/motion/recording.h"
 
@@ -167,9 +168,16 @@ class StageBuilder {
     if (spec_.dynamics == DynamicsDesc{}) return Done{};
     Result<DynamicsSetup> dynamics = build_dynamics(spec_.dynamics, character_, out_.legs, out_.rate_hz, out_.start.q);
     if (!dynamics) return below("/dynamics", dynamics.issue());
-    if (spec_.dynamics.mode != Mode::kinematic)
-      out_.dynamics = std::make_shared<const DynamicsSetup>(std::move(dynamics).value());
+    if (spec_.dynamics.mode == Mode::kinematic) return Done{};
+    out_.dynamics = std::make_shared<const DynamicsSetup>(std::move(dynamics).value());
+    if (out_.recorded) plant_recording();
     return Done{};
+  }
+
+  void plant_recording() {
+    Motion planted = *out_.recorded;
+    plant_feet(character_, out_.legs, out_.environment, planted);
+    out_.recorded = std::make_shared<const Motion>(std::move(planted));
   }
 
   const Spec& spec_;

@@ -9,12 +9,13 @@
 #include "generator/dynamics/re_aim.h"
 #include "generator/dynamics/retreat.h"
 #include "generator/dynamics/shift_rows.h"
-#include "generator/dynamics/soft_height.h"
 #include "generator/dynamics/soft_joints.h"
 #include "generator/dynamics/support_hull.h"
 #include "generator/dynamics/target.h"
 #include "generator/dynamics/tracker.h"
+#include "generator/motion/lowering.h"
 #include "generator/motion/place_foot.h"
+#include "generator/motion/soft_height.h"
 #include "model/core/detmath.h"
 #include "model/core/index.h"
 #include "model/motion/kinematics.h"
@@ -25,10 +26,7 @@ namespace {
 
 constexpr int kPasses = 8;
 constexpr int kLowerings = 3;
-constexpr double kSoftly_s = 0.2;  // within which the root goes down where a leg is too short
-constexpr double kReached_m = 2e-4;
 constexpr double kLowestBody_m = 0.2;
-constexpr double kMostLowering_m = 0.03;  // at once
 constexpr double kInset_m = 0.02;         // that the zero moment point of a target keeps from the edge
 constexpr double kInsetOfSteps_m = 0.026; // the same while a foot is off the ground: tracking is less exact then
 constexpr double kStretch = 0.99;         // of a leg, at most
@@ -36,6 +34,7 @@ constexpr double kEasyStretch = 0.97;
 constexpr double kStretched = 0.997;
 constexpr double kLetsGo_s = 0.15;
 constexpr double kUnmoved_m = 1e-4;       // moves below this are not made
+constexpr double kTravels_m_s = 0.2;
 constexpr int kRetreats = 14;
 constexpr double kOff_m = 0.005;          // of the zero moment point from where it should be
 constexpr double kLeastPressure = 0.2;    // of the weight, below which the figure counts as flying
@@ -259,13 +258,15 @@ class PossibleTarget {
       asked_N_m_ += length(rows.back().ask);
       any = any || length(rows.back().ask) > kUnmoved_m * mass() * kGravity_m_s2;
     }
-    if (any) solve_shift(rows, pendulum_rate(0), pendulum_rate(rows.size() - 1), shift_m_);
+    if (any) solve_shift(rows, end_at(0), end_at(rows.size() - 1), shift_m_);
     return any;
   }
 
-  // By which share of itself a pendulum's shift falls within a frame.
-  double pendulum_rate(std::size_t frame) const {
-    return std::sqrt(kGravity_m_s2 / std::max(needs_[frame].com_m.y, kLowestBody_m)) / motion_.rate_hz;
+  // A motion that ends while the figure travels goes on elsewhere.
+  ShiftEnd end_at(std::size_t frame) const {
+    const double height_m = std::max(needs_[frame].com_m.y, kLowestBody_m);
+    const Vec3& speed = speeds_[frame];
+    return {std::sqrt(kGravity_m_s2 / height_m) / motion_.rate_hz, length(Vec3(speed.x, 0.0, speed.z)) < kTravels_m_s};
   }
 
   void move() {
@@ -275,7 +276,7 @@ class PossibleTarget {
   }
 
   void lower_where_needed() {
-    for (int again = 0; again < kLowerings && lower(missing_m_); ++again) keep_all_soles();
+    for (int again = 0; again < kLowerings && lower_softly(missing_m_, motion_); ++again) keep_all_soles();
   }
 
   // Returns true if a standing leg is stretched to its full length: a figure that follows it would overstretch it.
@@ -283,8 +284,9 @@ class PossibleTarget {
     for (int f = 0; f < motion_.frame_count; ++f) {
       forward_kinematics(character_, motion_.root[at(f)], motion_.row(f), world_);
       for (std::size_t i = 0; i < legs_.size(); ++i) {
+        const Rigid& sole = plan_.sole(f, static_cast<int>(i));
         const bool stands = (plan_.standing(f) & (1U << i)) != 0;
-        if (stands && too_far_m(legs_[i], plan_.sole(f, static_cast<int>(i)), kStretched) > 0.0) return true;
+        if (stands && too_high_m(legs_[i], hip_m(legs_[i]), sole, kStretched) > 0.0) return true;
       }
     }
     return false;
@@ -293,24 +295,6 @@ class PossibleTarget {
   void keep_all_soles() {
     missing_m_.resize(at(motion_.frame_count));
     for (int f = 0; f < motion_.frame_count; ++f) missing_m_[at(f)] = keep_soles(f);
-  }
-
-  // Lowers the root, softly, where a leg is too short for its sole. Answers whether there was such a place.
-  bool lower(const std::vector<double>& missing_m) {
-    const int reach = std::max(1, static_cast<int>(kSoftly_s * motion_.rate_hz));
-    std::vector<double> lower_m(missing_m.size(), 0.0);
-    const int count = motion_.frame_count;
-    bool any = false;
-    for (int f = 0; f < count; ++f) {
-      if (missing_m[at(f)] <= kReached_m) continue;
-      any = true;
-      for (int g = std::max(0, f - reach); g <= std::min(count - 1, f + reach); ++g) {
-        const double away = static_cast<double>(g - f) / (reach + 1), near = (1.0 - away * away);
-        lower_m[at(g)] = std::max(lower_m[at(g)], std::min(missing_m[at(f)], kMostLowering_m) * near * near);
-      }
-    }
-    for (int f = 0; f < count; ++f) motion_.root[at(f)].p_m.y -= lower_m[at(f)];
-    return any;
   }
 
   // Puts all feet of a frame back. Answers by how much the root is too high for the longest leg, m.
@@ -322,7 +306,7 @@ class PossibleTarget {
     for (std::size_t i = 0; i < legs_.size(); ++i) {
       const Rigid wanted = within_reach(i, frame);
       place_foot(character_, legs_[i], world_, wanted, row);
-      most_m = std::max(most_m, too_far_m(legs_[i], wanted, kStretch));
+      most_m = std::max(most_m, too_high_m(legs_[i], hip_m(legs_[i]), wanted, kStretch));
     }
     return most_m;
   }
@@ -343,13 +327,6 @@ class PossibleTarget {
   }
 
   Vec3 hip_m(const Leg& leg) const { return world_[at(character_.parts()[at(leg.part)].reach.front().upper)].p_m; }
-
-  double too_far_m(const Leg& leg, const Rigid& sole, double stretch) const {
-    const Vec3 hip = hip_m(leg);
-    const Vec3 way = sole * leg.sole_from_ankle - hip;
-    const double longest_m = stretch * leg.length_m, level2 = way.x * way.x + way.z * way.z;
-    return std::max(0.0, -way.y - std::sqrt(std::max(0.0, longest_m * longest_m - level2)));
-  }
 
   BalancePlan balance() {
     BalancePlan out;

@@ -57,7 +57,15 @@ Retreat::Retreat(const Character& character, const ContactPlan& plan, std::span<
       reach_(std::max(1, static_cast<int>(kNear_s * motion.rate_hz))),
       carriers_(joints_to_legs(character, legs)),
       stays_(staying_frames(motion, reach_)) {
-  for (const FootLift& one : foot_lifts(plan, static_cast<int>(legs.size()))) lifts_.push_back({one});
+  for (const FootLift& one : foot_lifts(plan, static_cast<int>(legs.size())))
+    if (!is_begun_step(one)) lifts_.push_back({one});
+}
+
+// Returns true for a foot that is in the air at the end of a motion that travels: it would land elsewhere.
+bool Retreat::is_begun_step(const FootLift& lift) const {
+  const auto last = static_cast<int>(stays_.size()) - 1;
+  const std::span<const char> stays = std::span(stays_).subspan(at(lift.first), at(last + 1 - lift.first));
+  return lift.last == last && std::ranges::find(stays, 0) != stays.end();
 }
 
 bool Retreat::go(std::span<const char> impossible, Motion& motion) {

@@ -32,6 +32,7 @@ class Retreat {
     FootLift of;
     double size = 1.0;  // fraction of the planned height
   };
+  bool is_begun_step(const FootLift& lift) const;
   bool lower(std::span<const char> impossible);
   bool stand_up(std::span<const char> impossible, Motion& motion) const;
   void stand_up(int frame, double share, Motion& motion) const;

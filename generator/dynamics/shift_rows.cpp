@@ -7,20 +7,20 @@ namespace contort {
 namespace {
 
 // Takes the unknown shift beside an end out of the end's row, and answers what is added to the row's own share.
-double close_end(double rate, ShiftRow& row) {
-  const double kept = 1.0 / (1.0 + rate);
-  if (row.pressure_N > 0.0) row.ask *= 1.0 + row.spread * (1.0 - kept) / row.pressure_N;
+double close_end(const ShiftEnd& end, ShiftRow& row) {
+  const double kept = 1.0 / (1.0 + end.rate);
+  if (end.is_rest && row.pressure_N > 0.0) row.ask *= 1.0 + row.spread * (1.0 - kept) / row.pressure_N;
   return row.spread * kept;
 }
 
 }  // namespace
 
 // Gauss's elimination of a tridiagonal system, down and up again.
-void solve_shift(std::span<ShiftRow> rows, double rate_before, double rate_after, std::span<Vec3> shift_m) {
+void solve_shift(std::span<ShiftRow> rows, const ShiftEnd& before, const ShiftEnd& after, std::span<Vec3> shift_m) {
   std::vector<double> middle;
   for (const ShiftRow& row : rows) middle.push_back(-2.0 * row.spread - row.pressure_N);
-  middle.front() += close_end(rate_before, rows.front());
-  middle.back() += close_end(rate_after, rows.back());
+  middle.front() += close_end(before, rows.front());
+  middle.back() += close_end(after, rows.back());
   for (std::size_t f = 1; f < rows.size(); ++f) {
     const double share = rows[f].spread / middle[f - 1];
     middle[f] -= share * rows[f - 1].spread;

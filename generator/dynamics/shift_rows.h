@@ -14,9 +14,14 @@ struct ShiftRow {
   Vec3 ask{0.0};
 };
 
-// Solves the rows of all frames for bounded shifts, m. Before the first frame and after the last, the condition of that
-// frame continues, and the shift approaches its value at rest like a pendulum with these rates per frame. The rows are
-// changed.
-void solve_shift(std::span<ShiftRow> rows, double rate_before, double rate_after, std::span<Vec3> shift_m);
+// One side of a motion. Beyond it the shift goes on like a pendulum.
+struct ShiftEnd {
+  double rate = 0.0;    // by which share of itself the pendulum's shift falls within a frame
+  bool is_rest = true;  // true: the condition of the end's frame continues, and the shift comes to what it asks;
+                        // false: nothing more is asked, and the shift comes to 0
+};
+
+// Solves the rows of all frames for bounded shifts, m. The rows are changed.
+void solve_shift(std::span<ShiftRow> rows, const ShiftEnd& before, const ShiftEnd& after, std::span<Vec3> shift_m);
 
 }  // namespace contort

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "generator/dynamics/soft_height.h"
+#include "generator/motion/soft_height.h"
 #include "generator/dynamics/support_hull.h"
 #include "generator/execute.h"
 #include "generator/generate.h"

@@ -11,7 +11,7 @@ constexpr double kWeight_N = 700.0, kSpread = 70.0 * 3600.0, kPendulum = 0.05;
 
 std::vector<Vec3> shifts_of(std::vector<ShiftRow> rows) {
   std::vector<Vec3> shift_m(rows.size());
-  solve_shift(rows, kPendulum, kPendulum, shift_m);
+  solve_shift(rows, {kPendulum}, {kPendulum}, shift_m);
   return shift_m;
 }
 

@@ -1,4 +1,4 @@
-#include "generator/dynamics/soft_height.h"
+#include "generator/motion/soft_height.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,6 +64,19 @@ std::vector<double> smooth_below(std::span<const double> heights_m, int window) 
 }
 
 }  // namespace
+
+std::vector<double> soft_envelope(int reach, std::span<const double> values) {
+  const int count = static_cast<int>(values.size());
+  std::vector<double> out(values.size(), 0.0);
+  for (int f = 0; f < count; ++f) {
+    if (values[at(f)] <= 0.0) continue;
+    for (int g = std::max(0, f - reach); g <= std::min(count - 1, f + reach); ++g) {
+      const double away = static_cast<double>(g - f) / (reach + 1), near = 1.0 - away * away;
+      out[at(g)] = std::max(out[at(g)], values[at(f)] * near * near);
+    }
+  }
+  return out;
+}
 
 void smooth_twice(int window, std::vector<double>& values) {
   const int last = static_cast<int>(values.size()) - 1;
