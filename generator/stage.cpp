@@ -18,12 +18,15 @@ Issue below(const std::string& pointer, Issue issue) {
 
 // A figure with mass keeps its knees bent by 12 degrees: on a straight leg it could not control its height.
 constexpr double kSoftKnees = 0.006;  // of the leg's length
+// Its hips sway, and its ankles with them.
+constexpr double kAnkleReserve_rad = 2.0 * kRadPerDeg;
 
 void place_hips(const Spec& spec, Stage& stage) {
   for (Leg& leg : stage.legs) {
     const double soft_m = spec.dynamics.mode == Mode::kinematic ? 0.0 : kSoftKnees * leg.length_m;
     const double lower_m = std::max(spec.start.lower_m, soft_m);
     leg.home_m.z -= spec.start.ahead_m, leg.length_m -= lower_m;
+    if (spec.dynamics.mode != Mode::kinematic) leg.ankle_reserve_rad = kAnkleReserve_rad;
     stage.bends = stage.bends || spec.start.ahead_m != 0.0 || lower_m != 0.0;
   }
 }

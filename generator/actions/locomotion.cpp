@@ -314,6 +314,8 @@ void begin_bend(const RuleInput& in, const BendShape& shape, Posture& posture) {
     body.over_feet_m = shift_over_feet_m(in.character, in.legs, whole, in.world, in.scratch, posture.coords);
   body.deepest_bend = deepest_bend(in.character, in.room, whole, in.world, in.scratch, posture.coords);
   if (in.has_mass) {
+    const double balanced = balanced_bend(in.character, in.legs, whole, in.world, in.scratch, posture.coords);
+    body.deepest_bend = std::min(body.deepest_bend, balanced);
     const double calm = calm_bend({whole, shape.share_at});
     body.is_slower = calm < body.deepest_bend;
     body.deepest_bend = std::min(body.deepest_bend, calm);

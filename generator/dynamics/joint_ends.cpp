@@ -139,6 +139,13 @@ void stop_at_ends(const Character& character, const Multibody& body, std::span<c
   });
 }
 
+void put_balls_inside(const Character& character, const Multibody& body, FigureState& state) {
+  for (std::size_t i = 1; i < body.links().size(); ++i) {
+    const Link& link = body.links()[i];
+    if (link.kind == JointKind::ball) clamp_to_range(character.joints()[i], &state.coords[at(link.coord)]);
+  }
+}
+
 bool overbends(const Character& character, const Multibody& body, std::span<const char> held,
                std::span<const double> target, const FigureState& state) {
   constexpr double kOver_rad = 0.03;

@@ -18,6 +18,10 @@ void slow_at_ends(const Character& character, const Multibody& body, std::span<c
 void stop_at_ends(const Character& character, const Multibody& body, std::span<const char> held, double tick_s,
                   FigureState& state);
 
+// Turns balls that are outside of their ranges to the nearest place inside. The ends of a ball are curved, so that a
+// tick, which goes straight, passes them by a little, also where its velocity is bounded.
+void put_balls_inside(const Character& character, const Multibody& body, FigureState& state);
+
 // Returns true if a hinge of a leg with a standing foot is beyond the end of its range, and beyond its angle in the
 // target (by coordinate), by more than 0.03 rad, and moving outward. A knee that a walk stretches stays below that. No
 // ground can hold a leg that bends so far.

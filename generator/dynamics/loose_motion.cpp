@@ -72,6 +72,13 @@ void LooseMotion::move(const Character& character, EquationOfMotion& equation, s
   has_momentum_ = true;
 }
 
+void LooseMotion::keep_way(EquationOfMotion& equation) const {
+  std::vector<double>& velocity = equation.state.velocity;
+  const SpatialForce now = momentum_of(equation.body(), equation.dynamics, equation.mass, velocity);
+  const Vec3 missing = (1.0 / equation.body().mass_kg()) * (momentum_.force - now.force);
+  for (int k = 0; k < 3; ++k) velocity[at(k)] += missing[k];
+}
+
 // Joints that could come to their ends in this tick, whichever way a contact turns them.
 void LooseMotion::add_stops(const Character& character, const EquationOfMotion& equation) {
   for (std::size_t i = 1; i < equation.body().links().size(); ++i) {

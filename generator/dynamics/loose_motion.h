@@ -37,6 +37,9 @@ class LooseMotion {
   void move(const Character& character, EquationOfMotion& equation, std::span<const TouchPoint> touches,
             std::span<const BodyContact> bodies, const Environment& environment, const SpatialForce& before);
 
+  // After move, if velocities were changed again: gives the figure back the speed of its centre of mass, by the root.
+  void keep_way(EquationOfMotion& equation) const;
+
   // After move: the footing, from the figure's contacts and its tilt against the target's root rotation.
   Footing footing(const Quat& root, const Quat& wanted_root);
 

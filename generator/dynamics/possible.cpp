@@ -71,7 +71,7 @@ class PossibleTarget {
     state_ = moving_start(body_, TargetMotion(body_, motion));
     acceleration_.assign(state_.velocity.size(), 0.0);
     forces_ = acceleration_;
-    shift_m_.assign(at(motion.frame_count), Vec3(0.0));
+    shift_m_.assign(at(motion.frame_count), Vec3(0.0)), shifted_m_ = shift_m_;
     world_.resize(character.joints().size());
   }
 
@@ -90,6 +90,7 @@ class PossibleTarget {
   // says, but a figure that would have to go far has other legs and moments there.
   void settle() {
     const Motion given = motion_;
+    const std::vector<Vec3> given_shift_m = shifted_m_;
     double given_N_m = 0.0;
     for (int pass = 0; pass < kPasses; ++pass) {
       measure();
@@ -99,7 +100,7 @@ class PossibleTarget {
     }
     measure();
     if (!find_shift() || asked_N_m_ <= given_N_m) return;
-    motion_.root = given.root, motion_.coords = given.coords;
+    motion_.root = given.root, motion_.coords = given.coords, shifted_m_ = given_shift_m;
     measure();
   }
 
@@ -109,6 +110,7 @@ class PossibleTarget {
     std::vector<char> impossible;
     for (int f = 0; f < motion_.frame_count; ++f) impossible.push_back(is_impossible(f) ? 1 : 0);
     if (!retreat_.go(impossible, motion_)) return false;
+    shift_back();
     keep_all_soles(), lower_where_needed();
     return true;
   }
@@ -258,21 +260,35 @@ class PossibleTarget {
       asked_N_m_ += length(rows.back().ask);
       any = any || length(rows.back().ask) > kUnmoved_m * mass() * kGravity_m_s2;
     }
-    if (any) solve_shift(rows, end_at(0), end_at(rows.size() - 1), shift_m_);
+    if (any) solve_shift(rows, end_at(0), end_at(motion_.frame_count - 1), shift_m_);
     return any;
   }
 
-  // A motion that ends while the figure travels goes on elsewhere.
-  ShiftEnd end_at(std::size_t frame) const {
-    const double height_m = std::max(needs_[frame].com_m.y, kLowestBody_m);
-    const Vec3& speed = speeds_[frame];
-    return {std::sqrt(kGravity_m_s2 / height_m) / motion_.rate_hz, length(Vec3(speed.x, 0.0, speed.z)) < kTravels_m_s};
+  // Before its first frame and after its last one a figure stands still there, or goes on elsewhere if it travels.
+  ShiftEnd end_at(int frame) {
+    const Need& need = needs_[at(frame)];
+    const double height_m = std::max(need.com_m.y, kLowestBody_m);
+    ShiftEnd end{std::sqrt(kGravity_m_s2 / height_m) / motion_.rate_hz, Vec3(0.0)};
+    Vec3 speed = speeds_[at(frame)];
+    speed.y = 0.0;
+    find_corners(frame);
+    if (corners_.empty() || length(speed) > kTravels_m_s) return end;
+    end.rest_m = nearest_inside(corners_, kInset_m, need.com_m, hull_) - need.com_m;
+    end.rest_m.y = 0.0;
+    return end;
   }
 
   void move() {
-    for (int f = 0; f < motion_.frame_count; ++f) motion_.root[at(f)].p_m += shift_m_[at(f)];
+    for (int f = 0; f < motion_.frame_count; ++f)
+      motion_.root[at(f)].p_m += shift_m_[at(f)], shifted_m_[at(f)] += shift_m_[at(f)];
     keep_all_soles();
     lower_where_needed();
+  }
+
+  // Takes back all shifts so far: a motion that has come nearer to standing needs others.
+  void shift_back() {
+    for (int f = 0; f < motion_.frame_count; ++f) motion_.root[at(f)].p_m -= shifted_m_[at(f)];
+    std::ranges::fill(shifted_m_, Vec3(0.0));
   }
 
   void lower_where_needed() {
@@ -355,6 +371,7 @@ class PossibleTarget {
   std::vector<Need> needs_;
   double asked_N_m_ = 0.0;  // the sum of all frames' moments that a shift is to remove
   std::vector<Vec3> speeds_, shift_m_, corners_;
+  std::vector<Vec3> shifted_m_;  // the sum of all shifts, by frame
   LegFit legs_fit_{character_, figure_, legs_};
   Retreat retreat_{character_, plan_, legs_, motion_};
   std::vector<char> overloaded_;  // by frame

@@ -9,7 +9,7 @@ namespace {
 // Takes the unknown shift beside an end out of the end's row, and answers what is added to the row's own share.
 double close_end(const ShiftEnd& end, ShiftRow& row) {
   const double kept = 1.0 / (1.0 + end.rate);
-  if (end.is_rest && row.pressure_N > 0.0) row.ask *= 1.0 + row.spread * (1.0 - kept) / row.pressure_N;
+  row.ask -= row.spread * (1.0 - kept) * end.rest_m;
   return row.spread * kept;
 }
 

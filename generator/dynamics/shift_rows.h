@@ -14,11 +14,10 @@ struct ShiftRow {
   Vec3 ask{0.0};
 };
 
-// One side of a motion. Beyond it the shift goes on like a pendulum.
+// One side of a motion. Beyond it the shift comes to its value at rest like a pendulum.
 struct ShiftEnd {
-  double rate = 0.0;    // by which share of itself the pendulum's shift falls within a frame
-  bool is_rest = true;  // true: the condition of the end's frame continues, and the shift comes to what it asks;
-                        // false: nothing more is asked, and the shift comes to 0
+  double rate = 0.0;   // by which share of itself the rest of the way falls within a frame
+  Vec3 rest_m{0.0};
 };
 
 // Solves the rows of all frames for bounded shifts, m. The rows are changed.

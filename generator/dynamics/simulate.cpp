@@ -198,8 +198,9 @@ class Simulation {
       move_loosely(momentum);
     else
       stop_joints();
-    stop_racing(body_, figure_.fastest, state_.velocity);
+    if (stop_racing(body_, figure_.fastest, state_.velocity) && is_loose) s_.loose.keep_way(s_.equation);
     integrate(body_, state_.velocity, tick_s_, state_.root, state_.coords);
+    if (is_loose) put_balls_inside(character_, body_, state_);
   }
 
   void stop_joints() {

@@ -15,13 +15,24 @@ namespace {
 
 constexpr double kStands_m = 1e-3;  // a sole that is missed by less is reached
 
+// Returns true if an ankle keeps its reserve, as far as its range has room for it.
+bool keeps_reserve(const Joint& ankle, double reserve_rad, std::span<const double> row) {
+  if (ankle.kind != JointKind::hinge || 2.0 * reserve_rad >= ankle.high - ankle.low) return true;
+  const double angle = row[at(ankle.coord)];
+  return angle >= ankle.low + reserve_rad && angle <= ankle.high - reserve_rad;
+}
+
 bool fits(const Character& character, const Leg& leg, std::span<Rigid> world, const Rigid& sole,
           std::span<double> row) {
   place_foot(character, leg, world, sole, row);
   forward_kinematics(character, row, leg.joints, world);
   const double missed_m = length(world_from_socket(character, world, leg.sole).p_m - sole.p_m);
+  const auto ankles = std::span(leg.ankles).first(at(leg.ankle_count));
   return missed_m <= kStands_m &&
-         std::ranges::all_of(leg.joints, [&](int j) { return is_in_range(character.joint(j), row); });
+         std::ranges::all_of(leg.joints, [&](int j) { return is_in_range(character.joint(j), row); }) &&
+         std::ranges::all_of(ankles, [&](int j) {
+           return keeps_reserve(character.joint(j), leg.ankle_reserve_rad, row);
+         });
 }
 
 // Tries angles in steps of 0.1 rad, and answers the smallest one up to the first for which `is_good` is true; negative

@@ -80,7 +80,35 @@ Bearing bearing_of(std::span<const Leg> legs, std::span<const Rigid> first, std:
   return mean;
 }
 
+// The distance from the centre of mass back to the part of a foot that bears, m; at most 0 above it. A foot whose heel
+// has risen by some centimetres bears on its toes only.
+double behind_m(const Leg& leg, const Rigid& flat, const Rigid& sole, const Vec3& center_m) {
+  constexpr double kGives_m = 0.02;
+  const Vec3 toes = sole * Vec3(0.0, 0.0, leg.high_m.z), heel = sole * Vec3(0.0, 0.0, leg.low_m.z);
+  const Vec3 up = flat.q * Vec3(0, 1, 0), forward = flat.q * Vec3(0, 0, 1);
+  const double risen_m = glm::dot(up, heel - toes), length_m = leg.high_m.z - leg.low_m.z;
+  const double bears_m = risen_m > kGives_m ? length_m * kGives_m / risen_m : length_m;
+  const Vec3 level(forward.x, 0.0, forward.z);
+  return risen_m > kGives_m ? glm::dot(toes - center_m, level) - bears_m : 0.0;
+}
+
 }  // namespace
+
+double balanced_bend(const Character& character, std::span<const Leg> legs, const Bend& bend,
+                     std::span<const Rigid> world, const TrialSpace& scratch, std::span<double> row) {
+  constexpr double kBehind_m = 0.03;  // a moving figure can be so far behind for a moment
+  stand_bent(character, legs, bend.frame_at(0.0), world, scratch.world, row);
+  const std::vector<Rigid> flat = soles_of(character, legs, scratch.world);
+  for (int n = 1; n <= kStops; ++n) {
+    stand_bent(character, legs, bend.frame_at(static_cast<double>(n) / kStops), world, scratch.world, row);
+    const Vec3 center_m = center_of_mass(character, scratch.world);
+    for (std::size_t i = 0; i < legs.size(); ++i) {
+      const Rigid sole = world_from_socket(character, scratch.world, legs[i].sole);
+      if (behind_m(legs[i], flat[i], sole, center_m) > kBehind_m) return static_cast<double>(n - 1) / kStops;
+    }
+  }
+  return 1.0;
+}
 
 double calm_bend(const BendCourse& course) {
   for (int stop = kStops; stop > 0; --stop)

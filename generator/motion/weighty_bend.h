@@ -16,6 +16,11 @@ struct BendCourse {
 // lean by at most 12 rad/s^2, so that the soles can hold the figure.
 double calm_bend(const BendCourse& course);
 
+// The largest fraction of the way down, [0, 1], up to which the centre of mass is above the part of each foot that bears:
+// the less of it, the higher its heel has risen. On steep ground heels rise before the hips are above the toes.
+double balanced_bend(const Character& character, std::span<const Leg> legs, const Bend& bend,
+                     std::span<const Rigid> world, const TrialSpace& scratch, std::span<double> row);
+
 // Returns the level movement of the hips, m, with which the centre of mass at the end of the way down is near the point
 // where it is at its begin, or above the toes of feet whose heels have risen. `world`, `scratch` and `row` are as for
 // deepest_bend().

@@ -61,5 +61,25 @@ TEST(SingleActions, ATailOfBallsPointsAtItsTargetWhileItSlowsDown) {
   EXPECT_TRUE(found_in(stage_with_mass("quadruped", aim)).empty());
 }
 
+// Hips that sway uphill, and heels that rise before the hips are above the toes, took ankles beyond their ends.
+TEST(SingleActions, AnklesStayInTheirRangesInSquatsOnSlopes) {
+  for (const char* name : {"human", "mech"})
+    for (const double slope_deg : {12.0, 16.0})
+      for (const double heading_deg : {-60.0, 0.0, 20.0, 90.0, 180.0}) {
+        Spec spec;
+        spec.character.name = name;
+        spec.hold_frames = 30;
+        spec.dynamics.mode = Mode::tracking;
+        SlopeGround slope;
+        slope.slope_deg = slope_deg, slope.heading_deg = heading_deg;
+        spec.environment.ground = slope;
+        ActionUse squat = use("squat", "waist", 0, 30, {});
+        squat.blend_in_frames = -1;
+        spec.sequences = {sequence({squat})};
+        for (const Finding& finding : found_in(*build_stage(spec, stock_library())))
+          EXPECT_NE(finding.check, "joint_range") << name << " " << slope_deg << " " << heading_deg;
+      }
+}
+
 }  // namespace
 }  // namespace contort
