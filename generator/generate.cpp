@@ -16,7 +16,6 @@ namespace contort {
 
 namespace {
 
-constexpr double kHurry = 0.7;      // of the time that a limb takes for a way at ease (way.h)
 constexpr double kGoesOn_s = 0.15;  // the time for which legs are assumed to keep their speed before they go home
 
 class Generation {
@@ -255,7 +254,7 @@ class Generation {
       return s_.stacks[p].set_ik_blend(at_once ? 0 : way_frames(playback, hold, p));
     }
     if (action.cuts || !moves_legs(playback, hold)) return;
-    const int needs = static_cast<int>(std::ceil(kHurry * way_frames(playback, hold, p)));
+    const int needs = static_cast<int>(std::ceil(kHurriedWay * way_frames(playback, hold, p)));
     if (needs > action.blend_in) s_.stacks[p].set_ik_blend(needs);
   }
 
@@ -277,7 +276,7 @@ class Generation {
     const double left = course.end - content(playback, hold);
     if (left < course.blend_out) return;  // it fades already
     const double way_home_s = std::max(kLeastWay_s, way_home_s_after(std::min(0.5 * left, kGoesOn_s * stage_.rate_hz)));
-    const double needs = std::ceil(kHurry * (way_home_s - kLeastWay_s) * stage_.rate_hz);
+    const double needs = std::ceil(kHurriedWay * (way_home_s - kLeastWay_s) * stage_.rate_hz);
     if (needs <= course.blend_out || left > needs) return;
     for (LayerStack& stack : s_.stacks)
       if (stack.ik().action >= 0 && planned(playback, stack.ik()).use == course.use)

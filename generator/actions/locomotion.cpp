@@ -273,6 +273,14 @@ struct BendShape {
   double peak;  // the greatest rate of the share, in whole ways for each duration
 };
 
+// The time in which a bend comes in: if its use leaves that open, the time of the way of hips and feet to their stand.
+double comes_in_s(const RuleInput& in, const Rigid& root) {
+  double longest_s = way_s(in.from.root, root);
+  for (std::size_t leg = 0; leg < in.legs.size(); ++leg)
+    longest_s = std::max(longest_s, way_s(in.body.seen_soles[leg], in.body.first_soles[leg]));
+  return in.time.comes_in_s > 0.0 ? std::max(in.time.comes_in_s, kHurriedWay * longest_s) : longest_s;
+}
+
 // The peak of the share that is seen: a course that comes in while it bends makes both ways at once.
 double peak_with_blends(const BendShape& shape, const ActionTime& time) {
   if (!(time.takes_s > 0.0) || (time.comes_in_s <= 0.0 && time.fades_s <= 0.0)) return shape.peak;
@@ -289,11 +297,10 @@ double peak_with_blends(const BendShape& shape, const ActionTime& time) {
 
 // The share of the deepest bend that standing legs can follow while it comes in and fades, too. Short bends, which are
 // fast, are tried in every frame.
-double depth_with_blends(const RuleInput& in, const BendShape& shape, Posture& posture) {
+double depth_with_blends(const RuleInput& in, const BendShape& shape, const ActionTime& time, Posture& posture) {
   constexpr double kMostSamples = 40.0;
   WholeBody& body = in.body;
-  const ActionTime& time = in.time;
-  if (!(time.takes_s > 0.0) || !begins_on_its_feet(in)) return 1.0;
+  if (!(time.takes_s > 0.0)) return 1.0;
   const auto frame_at = [&](Gait& gait, const Pace& pace, double time_s) {
     const double share = shape.share_at(std::min(1.0, (time.duration_s - time.left_s + time_s) / time.duration_s));
     return with_blends(in, bent(in, gait, pace.speed * body.deepest_bend * share), time_s, time.comes_in_s);
@@ -309,7 +316,9 @@ void begin_bend(const RuleInput& in, const BendShape& shape, Posture& posture) {
   begin_course(in);
   body.over_feet_m = Vec3(0.0), body.is_slower = false;
   const auto frame_at = [&](double part) { return bent(in, body.gait, part); };
-  const Bend whole{frame_at, in.time.takes_s, peak_with_blends(shape, in.time)};
+  ActionTime time = in.time;
+  time.comes_in_s = comes_in_s(in, bent(in, body.gait, shape.share_at(time.progress)).root);
+  const Bend whole{frame_at, in.time.takes_s, peak_with_blends(shape, time)};
   if (in.has_mass)
     body.over_feet_m = shift_over_feet_m(in.character, in.legs, whole, in.world, in.scratch, posture.coords);
   body.deepest_bend = deepest_bend(in.character, in.room, whole, in.world, in.scratch, posture.coords);
@@ -320,7 +329,7 @@ void begin_bend(const RuleInput& in, const BendShape& shape, Posture& posture) {
     body.is_slower = calm < body.deepest_bend;
     body.deepest_bend = std::min(body.deepest_bend, calm);
   }
-  body.deepest_bend *= depth_with_blends(in, shape, posture);
+  body.deepest_bend *= depth_with_blends(in, shape, time, posture);
   body.lowest = frame_at(body.deepest_bend);
 }
 

@@ -8,6 +8,7 @@
 namespace contort {
 
 inline constexpr double kLeastWay_s = 0.1;  // the time that any way takes, however short
+inline constexpr double kHurriedWay = 0.7;  // of the time for a way at ease: that of a course which has to hurry
 
 // The distance between two postures of a joint: rad, or m of a travel; 0 for the root. `a` and `b` are the joint's own
 // coordinates.

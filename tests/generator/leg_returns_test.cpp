@@ -102,5 +102,18 @@ TEST(LegReturns, ABendThatBlendsInWhileItGoesDownIsNoDeeperThanLegsCan) {
   }
 }
 
+// A bend that finds a foot in the air takes the time of that foot's way to come in, and goes down meanwhile.
+TEST(LegReturns, ABendThatFindsAFootInTheAirIsNoDeeperThanTheStandingLegCan) {
+  const auto mech = stock("mech");
+  const auto broken = [&](const ActionUse& leg, int start_frame) {
+    ActionUse squat = use("squat", "waist", start_frame, 30, {});
+    squat.blend_in_frames = -1;
+    return broken_in(fixtures::stage_of({sequence({leg, squat})}, 20, mech));
+  };
+  for (const int start_frame : {10, 14, 18, 20, 24, 28})
+    EXPECT_EQ(broken(blow("leg_right", 0, 38, 0.0), start_frame), "") << "squat at " << start_frame;
+  EXPECT_EQ(broken(use("reach", "leg_left", 0, 60, {{"target_m", Vec3(0.56, 1.0, -0.16)}}), 10), "");
+}
+
 }  // namespace
 }  // namespace contort
