@@ -64,6 +64,7 @@ struct Clearance::Case {
   std::size_t part;
   const Past& past;
   const Posture& wanted;
+  Posture& stay;
   Posture& shown;
   Posture& saved;
   Posture& spare;
@@ -151,8 +152,17 @@ struct Clearance::Case {
     return limb.legs.empty() ? is_smooth() && is_clear_and_slow() : is_clear_and_slow() && is_smooth();
   }
 
+  // A limb that stops keeps its own foot in place, although hips that go down or lean carry the leg along: a straight
+  // knee would have to lift the foot out of the ground at once.
+  void find_stay() {
+    for (const int p : limb.parts) copy_part(character, at(p), past.before, stay);
+    forward_kinematics(character, stay.coords, limb.joints, world);
+    for (const int leg : limb.legs)
+      if (limb.is_its_own(feet.legs()[at(leg)])) feet.stay(at(leg), world, stay.coords);
+  }
+
   void go(double share) const {
-    for (const int p : limb.parts) blend_part(character, at(p), past.before, wanted, share, shown);
+    for (const int p : limb.parts) blend_part(character, at(p), stay, wanted, share, shown);
   }
 
   // The greatest share of the way that is clear; if possible one that is also smooth, and that can be stopped after.
@@ -260,19 +270,20 @@ struct Clearance::Case {
 void Clearance::begin(const Character& character, LimbRoom& room) {
   character_ = &character, room_ = &room;
   wanted_.coords.assign(at(character.coord_count()), 0.0);
-  saved_ = spare_ = wanted_;
+  stay_ = saved_ = spare_ = wanted_;
 }
 
 Clearance::Kept Clearance::keep(std::size_t part, const Past& past, bool was_lifted, Posture& shown,
                                 std::span<Rigid> world) {
   const Limb& limb = room_->limb_of(part);
   for (const int p : limb.parts) copy_part(*character_, at(p), shown, wanted_);
-  Case now{*character_, *room_, room_->feet(), limb, part, past, wanted_, shown, saved_, spare_, world};
+  Case now{*character_, *room_, room_->feet(), limb, part, past, wanted_, stay_, shown, saved_, spare_, world};
   now.was_lifted = was_lifted;
   const double wanted_m = wanted_m_ = now.room_m({-kTooNear_m, kSlowsDown_m});
   const bool is_easy = now.can_stop() && (!now.concerns_feet() || (now.is_slow() && now.is_smooth()));
   const Kept as_wanted = now.is_lifted ? Kept::foot_lifted : Kept::as_wanted;
   if (wanted_m >= kSlowsDown_m && is_easy) return as_wanted;
+  now.find_stay();
   now.go(0.0);
   const double room_m = now.room_m({.low_m = -kTooNear_m});
   now.enough_m = std::max(-kTooNear_m, std::min(kApproach * room_m, room_m - kCreep_m));

@@ -43,6 +43,7 @@ class Clearance {
   const Character* character_ = nullptr;
   LimbRoom* room_ = nullptr;
   Posture wanted_;
+  Posture stay_;  // the posture before, with feet that stand where they were
   Posture saved_;
   Posture spare_;
   double wanted_m_ = 0.0;

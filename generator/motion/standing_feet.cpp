@@ -65,7 +65,7 @@ void StandingFeet::note(std::size_t leg, LegUse use, std::span<const Rigid> worl
   const bool stays = (stays_idle && is_planted(leg)) || (moves && stood_[leg] && height <= kFree_m);
   if (!stays) stood_[leg] = height <= kTouches_m ? std::optional(sole) : std::nullopt;
   if (!moves || !was_seen_[leg]) rests_[leg] = stood_[leg];
-  was_seen_[leg] = true;
+  seen_[leg] = sole, was_seen_[leg] = true;
 }
 
 bool StandingFeet::land(std::size_t leg, const Rigid& world_from_sole, LandingStep step, std::span<Rigid> world,
@@ -104,6 +104,10 @@ bool StandingFeet::plant(std::size_t leg, std::span<Rigid> world, std::span<doub
 
 void StandingFeet::put_to_rest(std::size_t leg, std::span<Rigid> world, std::span<double> row) const {
   put_back(leg, *rests_[leg], world, row);
+}
+
+void StandingFeet::stay(std::size_t leg, std::span<Rigid> world, std::span<double> row) const {
+  if (stood_[leg]) put_back(leg, seen_[leg], world, row);
 }
 
 double StandingFeet::missed_m(std::size_t leg, const Rigid& sole, std::span<Rigid> world, std::span<double> row) const {

@@ -52,6 +52,9 @@ class StandingFeet {
   // their transforms in `world`, which must hold the leg and its carrier. Returns false if the foot is there already.
   bool plant(std::size_t leg, std::span<Rigid> world, std::span<double> row) const;
 
+  // Puts a foot that stands, or is low over the ground, to its place in the frame before, as plant() does.
+  void stay(std::size_t leg, std::span<Rigid> world, std::span<double> row) const;
+
   // Returns true if an action moved the foot in the previous frame, or if it returned from one.
   bool moves(std::size_t leg) const { return use_[leg] == LegUse::acts || use_[leg] == LegUse::lands; }
 
@@ -86,6 +89,7 @@ class StandingFeet {
   const Environment* environment_ = nullptr;
   std::array<std::optional<Rigid>, kMaxLegs> stood_;
   std::array<std::optional<Rigid>, kMaxLegs> rests_;
+  std::array<Rigid, kMaxLegs> seen_{};     // places in the frame before
   std::array<bool, kMaxLegs> was_seen_{};  // an action that begins in the first frame has moved nothing in it
   std::array<LegUse, kMaxLegs> use_{};
 };

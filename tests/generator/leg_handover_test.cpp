@@ -122,5 +122,22 @@ TEST(LegHandover, BendsAreOnlyAsDeepAsLegsCanFollowWhileTheyComeInAndFade) {
   EXPECT_TRUE(StageEvaluator().run(*stage).findings.empty());
 }
 
+// Near its straight end a knee is fast: the leg must not be carried into the ground by hips that go down and lean.
+TEST(LegHandover, ALegThatIsLiftedWhileABendBeginsKeepsTheSpeedsOfItsJoints) {
+  const auto mech = std::make_shared<const Character>(fixtures::built({"mech", {}, {}}));
+  const auto broken = [&](const ActionUse& bend, int start_frame) {
+    StageEvaluator evaluator;
+    std::string all;
+    const ActionUse reach = use("reach", "leg_left", start_frame, 30, {{"target_m", Vec3(0.0, 1.0, 0.5)}});
+    for (const Finding& finding : evaluator.run(stage_of({sequence({reach, bend})}, 20, mech)).findings)
+      all += finding.check + " " + finding.subject + "\n";
+    return all;
+  };
+  for (const int start_frame : {3, 4, 5, 6, 8}) {
+    EXPECT_EQ(broken(course("squat", 0, 30, {{"lean_deg", 18.0}}, {}), start_frame), "") << "at " << start_frame;
+    EXPECT_EQ(broken(course("crouch", 0, 30, {{"lean_deg", 38.0}}, {}), start_frame), "") << "at " << start_frame;
+  }
+}
+
 }  // namespace
 }  // namespace contort
