@@ -182,9 +182,9 @@ class Generation {
 
   // An ik action has ended: the base is what it reached.
   void settle(std::size_t p) {
+    if (p == 0) s_.carry.settle(s_.postures.base.root, seen(p).root);
     copy_part(character_, p, seen(p), s_.postures.base);
     copy_part(character_, p, seen(p), s_.postures.from_overwrite);
-    if (p == 0) s_.carry.settle();
   }
 
   void begin(const Playback& playback, const LayerHold& hold, std::size_t p, const Posture& present, Posture& from) {
@@ -192,6 +192,7 @@ class Generation {
     if (planned(playback, hold).aim != nullptr)  // it looks for a way for what hangs on the part, too
       for (const int other : limb_at(p).parts)
         if (at(other) > p) copy_part(character_, at(other), s_.past.before, from);
+    if (p == 0 && moves_legs(playback, hold)) s_.carry.raise(s_.postures.base.root);
     if (p != 0 || !moves_legs(playback, hold)) return;
     s_.legs_taken = playback.frame();
     std::array<Rigid, kMaxLegs>& seen = s_.rules.body(planned(playback, hold)).seen_soles;
@@ -242,7 +243,7 @@ class Generation {
   void move(const Playback& playback, const LayerHold& hold, std::size_t p, const Posture& from, const Posture& beneath,
             Posture& out) {
     const RuleCall call{hold.action, content(playback, hold), hold.came, hold.frame, come_in(playback, hold)};
-    const Posture& wanted = s_.rules.run(playback, call, p, from, beneath, s_.carry.stands_at());
+    const Posture& wanted = s_.rules.run(playback, call, p, from, beneath, s_.carry);
     blend(playback, hold, p, from, wanted, covered(playback, hold), out);
   }
 
@@ -299,15 +300,19 @@ class Generation {
   void fade(const Playback& playback, const LayerHold& hold, std::size_t p) {
     if (places_foot(playback, hold, p)) return;
     const double left = left_of(playback, hold);
-    if (moves_legs(playback, hold) && left < 1.0) s_.carry.bring_along(s_.postures.base.root);
+    if (moves_legs(playback, hold) && left < 1.0) s_.carry.bring_along(below(playback, hold), s_.postures.base.root);
     blend(playback, hold, p, beneath(p), s_.postures.plain, left, s_.postures.plain);
   }
 
+  LegsBelow below(const Playback& playback, const LayerHold& course) {
+    return s_.carry.below(s_.rules.body(planned(playback, course)).frame);
+  }
+
   void blend(const Playback& playback, const LayerHold& hold, std::size_t p, const Posture& a, const Posture& b,
-             double weight, Posture& out) const {
+             double weight, Posture& out) {
     const Rigid root = b.root;  // out may be b
     blend_part(character_, p, a, b, weight, out);
-    if (p == 0 && moves_legs(playback, hold)) out.root = blend_root(s_.carry.below(), a.root, root, weight);
+    if (p == 0 && moves_legs(playback, hold)) out.root = blend_root(below(playback, hold), a.root, root, weight);
   }
 
   void add_additives(const Playback& playback, std::size_t p) {
@@ -323,7 +328,7 @@ class Generation {
     if (is_taken_in(p, call.action)) return;
     s_.spans.additive(playback.frame(), call.action);
     s_.added[p] = 1;
-    const Posture& moved = s_.rules.run(playback, call, p, shown, shown, s_.carry.stands_at());
+    const Posture& moved = s_.rules.run(playback, call, p, shown, shown, s_.carry);
     blend_part(character_, p, shown, moved, weight * freedom(playback, p), shown);
   }
 

@@ -23,7 +23,7 @@ void fit_to_ground(const Stage& stage, const GaitFrame& frame, std::span<Rigid> 
 
 void RootCarry::begin(const Stage& stage, std::span<Rigid> world, Posture& posture) {
   stage_ = &stage;
-  stands_at_ = base_stands_at_ = stage.start;
+  stands_at_ = base_stands_at_ = stage.start, lowered_m_ = 0.0;
   Gait gait;
   gait.begin(*stage.character, stage.legs, stage.environment, stage.start, {});
   soles_ = gait.first_soles();
@@ -49,9 +49,20 @@ std::array<Rigid, kMaxLegs> RootCarry::soles_in(std::span<const Rigid> world) co
   return soles;
 }
 
-void RootCarry::bring_along(Rigid& base_root) {
-  base_root = brought_along(below(), base_root, base_stands_at_, stands_at_);
-  settle();
+void RootCarry::settle(const Rigid& base_root, const Rigid& settled) {
+  base_stands_at_ = stands_at_;
+  if (!(settled == base_root)) lowered_m_ = 0.0;
+}
+
+void RootCarry::raise(Rigid& base_root) {
+  base_root.p_m.y += lowered_m_;
+  lowered_m_ = 0.0;
+}
+
+void RootCarry::bring_along(const LegsBelow& below, Rigid& base_root) {
+  base_root = brought_along(below, base_root, base_stands_at_, stands_at_);
+  base_stands_at_ = stands_at_;
+  lowered_m_ += lower_to_reach_m(below, base_root);
 }
 
 }  // namespace contort

@@ -124,14 +124,15 @@ std::span<const double> RuleRunner::params(const PlannedAction& action, const Ac
 }
 
 const Posture& RuleRunner::run(const Playback& playback, const RuleCall& call, std::size_t part, const Posture& from,
-                               const Posture& beneath, const Rigid& stands_at) {
+                               const Posture& beneath, const RootCarry& carry) {
   const Character& character = *stage_->character;
   const PlannedAction& action = playback.action(call.action);
   copy_part(character, part, beneath, target_);
   if (action.def->layer != Layer::overwrite) place(part, target_);  // a chain may hang on a joint of its own part
   const ActionTime time = time_of(action, call.came, call.content, playback.rate_hz());
   action.def->rule({character, character.parts()[part], params(action, time, part), world_, {scratch_world_, scratch_row_}, time,
-                    stage_->start, stage_->environment, stage_->legs, stands_at, action.aim.get(), action.keys.get(),
+                    stage_->start, stage_->environment, stage_->legs, carry.stands_at(), carry.base_stands_at(),
+                    action.aim.get(), action.keys.get(),
                     action.script.get(), action.easy_grip_m, from, playback.frame(), call.took_over, call.came_in, body(action),
                     feedback_[part], room_, stage_->dynamics != nullptr},
                    target_);

@@ -5,6 +5,7 @@
 
 #include "generator/motion/limb_room.h"
 #include "generator/playback.h"
+#include "generator/root_carry.h"
 #include "generator/stage.h"
 
 namespace contort {
@@ -29,10 +30,10 @@ class RuleRunner {
   void place(std::size_t part, const Posture& posture);
 
   // The posture of the part after its rule was applied to the one `beneath` it. `from` is the posture at the action's
-  // start, and `stands_at` the place to which legs have carried the character. Only the part's own entries of the
-  // result are valid, until the next run.
+  // start, and `carry` the place to which legs have carried the character. Only the part's own entries of the result
+  // are valid, until the next run.
   const Posture& run(const Playback& playback, const RuleCall& call, std::size_t part, const Posture& from,
-                     const Posture& beneath, const Rigid& stands_at);
+                     const Posture& beneath, const RootCarry& carry);
 
   const Posture& made() const { return target_; }  // the result of the last run
   LimbRoom& room() { return room_; }

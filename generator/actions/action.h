@@ -143,6 +143,7 @@ struct RuleInput {
   const Environment& environment;
   std::span<const Leg> legs;
   const Rigid& stands_at;  // a turn about +Y and a place on the plane y = 0: the place to which legs have carried it
+  const Rigid& base_stands_at;  // the same, where `world` has the root of the base on which the action plays
   const AimPlan* aim;  // only for actions with an own_point
   const KeyPlan* keys;  // only for key poses from a file
   const ScriptPlan* script;  // only for a script that sets joints; `params` is then its row

@@ -143,11 +143,11 @@ GaitFrame with_blends(const RuleInput& in, const GaitFrame& frame, double conten
   const ActionTime& time = in.time;
   const double played_s = content_s * time.takes_s / time.duration_s;
   const double left_s = time.fades_by_s - (time.duration_s - time.left_s + content_s) * time.takes_s / time.duration_s;
-  const LegsBelow below{in.character, in.legs, in.environment};
-  const Rigid& first = in.world[0];
-  const Rigid home = brought_along(below, first, in.stands_at, frame.stands_at);
+  const LegsBelow below{in.character, in.legs, in.environment, frame.short_m};
+  Rigid home = brought_along(below, in.world[0], in.base_stands_at, frame.stands_at);
+  lower_to_reach_m(below, home);
   GaitFrame seen = frame;
-  seen.root = blend_root(below, first, seen.root, ramp(played_s, comes_in_s));
+  seen.root = blend_root(below, in.from.root, seen.root, ramp(played_s, comes_in_s));
   seen.root = blend_root(below, home, seen.root, ramp(std::max(0.0, left_s), time.fades_s));
   return seen;
 }
@@ -163,7 +163,7 @@ bool begins_where_it_stands(const RuleInput& in, const GaitParams& params) {
   constexpr double kNear_m = 0.002, kNear_rad = 0.005;
   Gait gait = in.body.gait;
   const Rigid root = gait.at(params, 0.0, in.time.left_s).root;
-  const Rigid& now = in.world[0];
+  const Rigid& now = in.from.root;
   return begins_on_its_feet(in) && length(root.p_m - now.p_m) < kNear_m &&
          rotation_angle(glm::conjugate(root.q) * now.q) < kNear_rad;
 }

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kGap = 0.9;    // of the gap at home: as near as feet come to each other sideways
 constexpr double kSoft = 0.010;  // of the shortest leg: before its legs are that short of straight, hips go down
+constexpr double kNothing_m = 1e-9;
 constexpr double kBend = 0.005;  // of a moving leg's length: a knee never snaps straight
 
 // The weight with which a runner's leg holds the hips down, [0, 1]: none while it swings, when its foot may trail.
@@ -183,6 +184,11 @@ void Gait::take_step(const GaitParams& params, const GaitTiming& timing, const L
   choose_swing(*environment_, leg, params.lift_m, step);
 }
 
+double Gait::below_rest_m(const Rigid& root) const {
+  const double rests_at_m = character_->rest_root().p_m.y + environment_->height_at(root.p_m.x, root.p_m.z);
+  return std::max(0.0, rests_at_m - root.p_m.y);
+}
+
 // Over the feet, upright or along their slope.
 Rigid Gait::root_over(std::span<const Vec3> feet, const Rigid& course, double lower_m) const {
   const Rigid& rest = character_->rest_root();
@@ -223,7 +229,9 @@ GaitFrame Gait::stand(double lower_share) {
   std::array<double, kMaxLegs> holds;
   holds.fill(1.0);
   frame.root = root_over(feet, world_from_start_, 0.0);
+  const double rests_at_m = frame.root.p_m.y;
   lower_to_reach(holds, 0.0, frame);
+  if (rests_at_m - frame.root.p_m.y > kNothing_m) frame.short_m = below_rest_m(frame.root);
   frame.stands_at = world_from_start_;
   // From where the legs reach, wherever that is: without a kink.
   frame.root.p_m.y -= lower_share * least_length_m(legs_);

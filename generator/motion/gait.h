@@ -33,6 +33,7 @@ struct GaitFrame {
   Rigid stands_at;  // the place that the course has reached: a turn about +Y and a point of the plane y = 0
   std::array<FootTarget, kMaxLegs> feet;
   std::array<ArmSwing, 2> arms;  // left and right
+  double short_m = 0.0;  // feet that stay too far apart for hips at their height at rest: these are as much lower
 };
 
 // Returns the fraction of an additive that a part may show, [0, 1]: 0 for a standing foot and its leg, more for a
@@ -73,6 +74,7 @@ class Gait {
   Rigid course(const GaitParams& params, const GaitTiming& timing, double time_s) const;
   void swing_arms(const GaitParams& params, const GaitTiming& timing, double time_s, double moving,
                   GaitFrame& frame) const;
+  double below_rest_m(const Rigid& root) const;
   Rigid root_over(std::span<const Vec3> feet, const Rigid& course, double lower_m) const;
   void lower_to_reach(std::span<const double> holds, double bend, GaitFrame& frame) const;
 

@@ -29,6 +29,18 @@ Spec spec_of(const std::string& character, const std::vector<ActionUse>& uses) {
   return spec;
 }
 
+// A crouch cuts a walk, and feet stay apart.
+Spec cut_walk(const std::string& character, int frame, int blend_frames) {
+  Spec spec = spec_of(character, {legs(character, "walk", 0, 240, 0, {{"speed_m_s", 0.6}})});
+  InterruptDesc interrupt;
+  interrupt.when.frame = frame;
+  interrupt.sequence.clips.resize(1);
+  interrupt.sequence.clips[0].actions = {legs(character, "crouch", 0, 60, blend_frames, {{"share", 0.1}})};
+  interrupt.resume = false;
+  spec.interrupts = {interrupt};
+  return spec;
+}
+
 Stage stage_of(const Spec& spec) {
   Result<Stage> stage = build_stage(spec, stock_library());
   if (!stage) throw std::logic_error(to_line(stage.issue()));
@@ -66,16 +78,19 @@ TEST_P(FeetStay, WhereOneFadesOutAndTheNextComesIn) {
 }
 
 TEST_P(FeetStay, WhereAnInterruptCutsAWalk) {
-  for (const int frame : {60, 75, 90, 105, 120}) {
-    Spec spec = spec_of(GetParam(), {legs(GetParam(), "walk", 0, 240, 0, {{"speed_m_s", 0.6}})});
-    InterruptDesc interrupt;
-    interrupt.when.frame = frame;
-    interrupt.sequence.clips.resize(1);
-    interrupt.sequence.clips[0].actions = {legs(GetParam(), "crouch", 0, 60, 15, {{"share", 0.1}})};
-    interrupt.resume = false;
-    spec.interrupts = {interrupt};
-    EXPECT_EQ(of_feet(spec), std::vector<std::string>{}) << "cut at " << frame;
-  }
+  for (const int frame : {60, 75, 90, 105, 120})
+    EXPECT_EQ(of_feet(cut_walk(GetParam(), frame, 15)), std::vector<std::string>{}) << "cut at " << frame;
+}
+
+// Hips that rose to their height at rest over feet that still stand apart pulled knees straight at once.
+TEST_P(FeetStay, AndKneesAreSlowWhereABendThatCutAWalkFades) {
+  StageEvaluator evaluator;
+  for (const int frame : {75, 80, 85, 90, 95})
+    for (const int blend_frames : {10, 15, 20}) {
+      const Stage stage = stage_of(cut_walk(GetParam(), frame, blend_frames));
+      for (const Finding& finding : evaluator.run(stage).findings)
+        ADD_FAILURE() << "cut at " << frame << ", " << blend_frames << ": " << finding.check << " " << finding.subject;
+    }
 }
 
 // Steps of a centimetre are lifted, too: feet that only almost leave the ground slide farther with each of them.
