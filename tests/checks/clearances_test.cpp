@@ -108,7 +108,7 @@ TEST_P(ClearancesOf, WhatSelfCollisionLeavesOutChangesNothing) {
   int episodes = 0;
   DrawConfig config{{GetParam()}};
   config.profile.wild_poses = true;  // many collisions
-  for (int i = 0; i < 160; ++i) {
+  for (int i = 0; i < 200; ++i) {
     const Stage stage = *build_stage(draw_spec(config, stock_generator(), 5, i), stock_library());
     const Motion motion = generate(stage);
     const MarginFold some = folded(stage, motion, false), all = folded(stage, motion, true);
