@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kGap = 0.9;    // of the gap at home: as near as feet come to each other sideways
 constexpr double kSoft = 0.010;  // of the shortest leg: before its legs are that short of straight, hips go down
-constexpr double kNothing_m = 1e-9;
 constexpr double kBend = 0.005;  // of a moving leg's length: a knee never snaps straight
+constexpr double kNothing_m = 1e-9;
 
 // The weight with which a runner's leg holds the hips down, [0, 1]: none while it swings, when its foot may trail.
 double hold_of(double swing) {
