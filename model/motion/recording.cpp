@@ -70,6 +70,23 @@ Result<std::vector<int>> nodes_of_joints(const Character& character, const Recor
   return nodes;
 }
 
+bool is_above(const Asset& asset, int above, int node) {
+  while (node >= 0 && node != above) node = asset.nodes[at(node)].parent;
+  return node == above;
+}
+
+// The lowest node that carries all of these and is none of them; -1 if there is none.
+int carrier_of(const Asset& asset, std::span<const int> nodes) {
+  const auto first = std::ranges::find_if(nodes, [](int node) { return node >= 0; });
+  if (first == nodes.end()) return -1;
+  int carrier = asset.nodes[at(*first)].parent;
+  const auto carries_all = [&] {
+    return std::ranges::all_of(nodes, [&](int n) { return n < 0 || (n != carrier && is_above(asset, carrier, n)); });
+  };
+  while (carrier >= 0 && !carries_all()) carrier = asset.nodes[at(carrier)].parent;
+  return carrier;
+}
+
 // The rotation about a unit axis that is nearest to a given rotation.
 double twist_about(const Vec3& axis, const Quat& q) {
   return wrap_angle(2.0 * det::atan2(glm::dot(axis, Vec3(q.x, q.y, q.z)), q.w));
@@ -134,17 +151,19 @@ class Follower {
   }
 
   Result<Done> map() {
-    const Result<std::vector<int>> nodes = nodes_of_joints(character_, use_);
-    if (!nodes) return nodes.issue();
-    followed_of_.assign(nodes->size(), -1);
-    for (std::size_t j = 0; j < nodes->size(); ++j) {
-      if ((*nodes)[j] < 0) continue;
+    Result<std::vector<int>> found = nodes_of_joints(character_, use_);
+    if (!found) return found.issue();
+    std::vector<int> nodes = std::move(found).value();
+    if (nodes.front() < 0 && !use_.may_lack_root) nodes.front() = carrier_of(use_.asset, nodes);
+    followed_of_.assign(nodes.size(), -1);
+    for (std::size_t j = 0; j < nodes.size(); ++j) {
+      if (nodes[j] < 0) continue;
       followed_of_[j] = static_cast<int>(followed_.size());
-      followed_.push_back({static_cast<int>(j), (*nodes)[j], 1, kNoRotation});
+      followed_.push_back({static_cast<int>(j), nodes[j], 1, kNoRotation});
     }
     has_root_ = !followed_.empty() && followed_[0].joint == 0;
     if (followed_.empty() || !(has_root_ || use_.may_lack_root))
-      return Issue{"recording.no_root", "/joints", "no node is called \"root\" or given for it"};
+      return Issue{"recording.no_root", "/joints", "no node is called \"root\", given for it, or carries those of all joints"};
     if (use_.may_face_elsewhere) face_forward();
     for (Followed& f : followed_) f.hinges = hinges_from(f.joint);
     for (Followed& f : followed_) f.world_aside = aside(f);

@@ -24,7 +24,8 @@ namespace contort {
 struct RecordingUse {
   const Asset& asset;
   const AssetClip& clip;
-  // Joint of the character, by node; other nodes follow by equal names.
+  // Joint of the character, by node; other nodes follow by equal names. A root without a node follows the lowest node
+  // that carries those of all joints.
   const std::map<std::string, std::string>& joints;
   double from_s = 0.0;                               // time in the clip at which the motion begins
   double rate_hz = 60.0;

@@ -186,6 +186,26 @@ TEST(Recording, ACoordinateNeverJumpsToItsOtherSolution) {
       EXPECT_LT(std::fabs(motion.row(f)[c] - motion.row(f - 1)[c]), 0.2) << f << " " << c;
 }
 
+// An imported character keeps the names of its joints, but calls its root "root".
+TEST(Recording, ARootWithoutANodeFollowsTheNodeThatCarriesAllJoints) {
+  const Character character = human();
+  Stranger stranger;
+  stranger.turn_arm(from_rotation_vector({0, 0.4, 0.5}));
+  std::map<std::string, std::string> joints = kStrangersJoints;
+  const auto play = [&] {
+    return follow_recording(character, {stranger.asset, stranger.asset.clips[0], joints, 0.0, 30.0, 0, {}});
+  };
+  const Result<Motion> given = play();
+  joints.erase("Hips");
+  const Result<Motion> found = play();
+  ASSERT_TRUE(given.ok() && found.ok());
+  EXPECT_EQ(*found, *given);
+  joints.erase("Arm"), joints.erase("Forearm");
+  const Result<Motion> none = play();
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.issue().code, "recording.no_root");
+}
+
 std::string refused(const Spec& spec, const Library& library) {
   const Result<Stage> stage = build_stage(spec, library);
   return stage ? "" : stage.issue().code + " " + stage.issue().pointer;
