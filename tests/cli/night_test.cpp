@@ -35,7 +35,7 @@ class NightSlow : public Night {};
 // come before any progress.
 TEST_F(NightSlow, KilledFiftyTimesAndResumedItLeavesTheSameBytes) {
   const std::string whole = folder_ / "whole", killed = folder_ / "killed";
-  constexpr int kCases = 15000;
+  constexpr int kCases = 45000;
   ASSERT_EQ(contort_program(fuzz(whole, kCases)).code, 1);
   std::mt19937 dice(50);
   for (int kills = 0; kills < 50; ++kills) {
