@@ -20,6 +20,8 @@ bool is_recording(const std::filesystem::path& path) {
 
 Result<Asset> read_amc_asset(const std::string& path) {
   const Result<Take> take = read_take(path);
+  if (!take && take.issue().code == "check.no_skeleton")
+    return Issue{take.issue().code, "", take.issue().text + "; a library needs exactly one for each .amc"};
   if (!take) return take.issue();
   return to_asset(*take, kTakeRate_hz, path);
 }

@@ -24,7 +24,7 @@ Result<Take> read_take(const std::string& amc_path, const std::string& asf_path 
 Asset to_asset(const Take& take, double rate_hz, const std::string& amc_path);
 
 // The only .asf in the folder of an .amc; of several, the one whose name has the longest beginning in common. Code
-// "check.no_skeleton" if there is none, or if several have equally similar names.
+// "check.no_skeleton" if the folder has no .asf, or if several have equally similar names.
 Result<std::string> find_skeleton(const std::string& amc_path);
 
 }  // namespace contort

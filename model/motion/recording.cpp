@@ -75,7 +75,7 @@ bool is_above(const Asset& asset, int above, int node) {
   return node == above;
 }
 
-// The lowest node that carries all of these and is none of them; -1 if there is none.
+// Returns the lowest node that is above all of these nodes, or -1 if no node is.
 int carrier_of(const Asset& asset, std::span<const int> nodes) {
   const auto first = std::ranges::find_if(nodes, [](int node) { return node >= 0; });
   if (first == nodes.end()) return -1;

@@ -104,7 +104,7 @@ Motion flung(const Character& character, std::uint64_t seed) {
   return motion;
 }
 
-// Nothing pushes, so the centre of mass keeps its speed. The root ran away at 1e9 m/s, and came to NaN.
+// No force acts in the air, so the centre of mass keeps its speed. The root once ran away at 1e9 m/s, and became NaN.
 TEST(Racing, AFigureThatIsFlungAboutKeepsItsSpeed) {
   Stage stage = stage_of(R"({"format": "contort.spec/1", "character": {"name": "human"},
                              "dynamics": {"mode": "dynamic"}})");

@@ -69,5 +69,36 @@ TEST(LowPass, LeavesOneThroughRootTwoOfItsCutoffWithoutDelay) {
   }
 }
 
+// The greatest step between two frames, of the knee's angle and of the root's place and rotation.
+double greatest_step(const Character& character, const Motion& motion) {
+  const int knee = character.joint(character.find_joint("leg_left/knee")).coord;
+  double most = 0.0;
+  for (int f = 1; f < motion.frame_count; ++f) {
+    const Rigid &before = motion.root[at(f - 1)], &now = motion.root[at(f)];
+    most = std::max({most, std::fabs(motion.row(f)[at(knee)] - motion.row(f - 1)[at(knee)]), length(now.p_m - before.p_m),
+                     rotation_angle(glm::conjugate(before.q) * now.q)});
+  }
+  return most;
+}
+
+TEST(RemoveJumps, SpreadsAJumpOverTimeAndKeepsBothSides) {
+  const Character character = human();
+  const Motion given = moving(character, [](double t_s) { return t_s < 2.0 ? 0.0 : 0.3; });
+  Motion even = given;
+  remove_jumps(character, even);
+  EXPECT_GT(greatest_step(character, given), 0.29);
+  EXPECT_LT(greatest_step(character, even), 0.06);
+  EXPECT_LT(difference(given, even, 0, 60), 1e-6);
+  EXPECT_LT(difference(given, even, kFrames - 61, kFrames - 1), 1e-6);
+}
+
+TEST(RemoveJumps, LeavesASlowMotionAsItIs) {
+  const Character character = human();
+  const Motion given = moving(character, [](double t_s) { return 0.3 * std::sin(2.0 * t_s); });
+  Motion even = given;
+  remove_jumps(character, even);
+  EXPECT_LT(difference(given, even, 0, kFrames - 1), 2e-3);
+}
+
 }  // namespace
 }  // namespace contort

@@ -28,7 +28,7 @@ Spec walk(const std::string& character) {
   return spec;
 }
 
-// What happens to motions between figures: they float, slide, and their feet are tilted and tremble.
+// Flaws that motions get when they are taken over from another figure.
 struct Flaws {
   double float_m = 0.0;
   double way = 1.0;  // the root's way is this many times as long

@@ -7,6 +7,7 @@
 #include "model/motion/kinematics.h"
 #include "tests/character/stock.h"
 #include "tests/corpus/temp_folder.h"
+#include "tests/mocap/asf_text.h"
 #include "tests/scenes.h"
 
 namespace contort {
@@ -243,6 +244,18 @@ TEST(Recording, TwoFilesOfOneNameAreRefused) {
   const Result<Done> twice = load_recordings(folder.path(), library);
   ASSERT_FALSE(twice);
   EXPECT_EQ(twice.issue().code, "recording.duplicate_name");
+}
+
+TEST(Recording, ATakeNeedsItsSkeletonBesideIt) {
+  const TempFolder folder;
+  spill(folder / "take.amc", small_amc());
+  Library library = stock_library();
+  const Result<Done> alone = load_recordings(folder.path(), library);
+  ASSERT_FALSE(alone);
+  EXPECT_EQ(alone.issue().code, "check.no_skeleton");
+  spill(folder / "take.asf", small_asf());
+  ASSERT_TRUE(load_recordings(folder.path(), library));
+  EXPECT_EQ(library.recordings.at("take")->clips.size(), 1U);
 }
 
 }  // namespace
