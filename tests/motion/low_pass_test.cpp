@@ -75,8 +75,9 @@ double greatest_step(const Character& character, const Motion& motion) {
   double most = 0.0;
   for (int f = 1; f < motion.frame_count; ++f) {
     const Rigid &before = motion.root[at(f - 1)], &now = motion.root[at(f)];
-    most = std::max({most, std::fabs(motion.row(f)[at(knee)] - motion.row(f - 1)[at(knee)]), length(now.p_m - before.p_m),
-                     rotation_angle(glm::conjugate(before.q) * now.q)});
+    const double bend = std::fabs(motion.row(f)[at(knee)] - motion.row(f - 1)[at(knee)]);
+    const double turn = rotation_angle(glm::conjugate(before.q) * now.q);
+    most = std::max({most, bend, length(now.p_m - before.p_m), turn});
   }
   return most;
 }
