@@ -51,7 +51,7 @@ double usual_height_m(const EndPath& end, double slow_m_s) {
     if (end.speed_m_s[f] < slow_m_s) heights_m.push_back(end.height_m[f]);
   if (heights_m.empty()) return std::numeric_limits<double>::infinity();
   const auto middle = heights_m.begin() + static_cast<std::ptrdiff_t>(heights_m.size() / 2);
-  std::ranges::nth_element(heights_m, middle);
+  std::nth_element(heights_m.begin(), middle, heights_m.end());
   return *middle;
 }
 
