@@ -334,8 +334,13 @@ void LimbKeeper::keep_clear(const Limb& limb, bool was_lifted) {
     case Clearance::Kept::elsewhere: break;
   }
   shift(limb, Shift::held_off);
-  for (const int p : limb.parts) s_.path.correct(at(p), s_.postures.shown.coords);
+  // The lift of a foot so far is no speed of its leg. Joints without mass would lose that speed within some frames.
+  const bool keeps_speed = was_lifted && !s_.past.easy.empty();
+  for (const int p : limb.parts)
+    if (keeps_speed)
+      s_.path.correct(at(p), s_.past.before.coords, s_.postures.shown.coords);
+    else
+      s_.path.correct(at(p), s_.postures.shown.coords);
 }
-
 
 }  // namespace contort

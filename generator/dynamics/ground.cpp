@@ -15,6 +15,7 @@ namespace {
 constexpr double kMomentPrice = 100.0;       // of a squared N m against a squared N
 constexpr double kMostMomentPrice = 2000.0;  // where the ankle is weak
 constexpr double kLeastShare = 0.2;          // of the weight that must press on the ground
+constexpr double kLeastLoad = 0.05;          // of an even share of the weight, as which a sole counts at least
 
 // Row of the moment e . (n + (o - p) x f) in the root's entries of generalised forces: f in the world, n in its axes.
 SupportEdge edge_between(const Vec3& from_m, const Vec3& to_m, const Placement& root) {
@@ -106,26 +107,43 @@ void GroundShare::prepare(const DynamicFigure& figure, const Feet& feet, std::sp
   feet_.clear();
   dof_count_ = figure.body.dof_count();
   moves_.assign(standing.size() * at(dof_count_), 0);
-  factors_.fill(0.0);
-  const auto entry = [&](int i, int j) -> double& { return factors_[at(6 * i + j)]; };
   for (const int s : standing) {
     const Sole& sole = figure.soles[at(s)];
     const Placement& link = dynamics.world[at(sole.link)];
     const Vec3 d = link.origin_m + link.rotation * middle_of(sole, feet.bearing(s)) - dynamics.world[0].origin_m;
     for (const int dof : sole.chain_dofs) moves_[feet_.size() * at(dof_count_) + at(dof)] = 1;
-    const double firm = firmness[at(s)];
-    const Vec3 e = firm * d;
-    feet_.push_back({s, d, firm, moment_ease(sole, dynamics)});
-    const Mat3& ease = feet_.back().moment_ease;
+    feet_.push_back({s, d, firmness[at(s)], moment_ease(sole, dynamics)});
+  }
+  factorise();
+}
+
+void GroundShare::factorise() {
+  factors_.fill(0.0);
+  const auto entry = [&](int i, int j) -> double& { return factors_[at(6 * i + j)]; };
+  for (const Foot& foot : feet_) {
+    const Vec3 d = foot.center_m, e = foot.firmness * d;
     for (int i = 0; i < 3; ++i) {
-      entry(3 + i, 3 + i) += firm;
-      for (int j = 0; j < 3; ++j) entry(i, j) += firm * ease[j][i] + (i == j ? glm::dot(d, e) : 0.0) - d[i] * e[j];
+      entry(3 + i, 3 + i) += foot.firmness;
+      for (int j = 0; j < 3; ++j)
+        entry(i, j) += foot.firmness * foot.moment_ease[j][i] + (i == j ? glm::dot(d, e) : 0.0) - d[i] * e[j];
     }
     // d x phi
     entry(3, 1) += e.z, entry(3, 2) -= e.y, entry(4, 0) -= e.z, entry(4, 2) += e.x, entry(5, 0) += e.y,
         entry(5, 1) -= e.x;
   }
   if (!feet_.empty()) factorise_symmetric(factors_, 6);
+}
+
+// A sole on which nothing presses can give no moment either.
+void GroundShare::follow_load(const DynamicsScratch& dynamics, std::span<const double> forces) {
+  if (feet_.size() < 2) return;
+  const SpatialForce net = ground_force(dynamics, forces), common = multipliers(net);
+  if (!(net.force.y > 0.0)) return;
+  const double even_N = net.force.y / static_cast<double>(feet_.size());
+  std::array<double, kMaxLegs> loads{};
+  for (std::size_t i = 0; i < feet_.size(); ++i) loads[i] = share_of(i, common).force.y / even_N;
+  for (std::size_t i = 0; i < feet_.size(); ++i) feet_[i].moment_ease *= std::clamp(loads[i], kLeastLoad, 1.0);
+  factorise();
 }
 
 SpatialForce GroundShare::multipliers(const SpatialForce& net) const {

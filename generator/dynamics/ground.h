@@ -65,6 +65,10 @@ class GroundShare {
   void prepare(const DynamicFigure& figure, const Feet& feet, std::span<const double> firmness,
                const DynamicsScratch& dynamics);
 
+  // Makes soles that bear less than an even share of this force less firm, in proportion: a sole on which nothing
+  // presses can give no moment.
+  void follow_load(const DynamicsScratch& dynamics, std::span<const double> forces);
+
   // Joint efforts for generalised forces: these forces minus those that the soles transmit; 0 for the root.
   void efforts(const DynamicFigure& figure, const DynamicsScratch& dynamics, std::span<const double> forces,
                std::span<double> out) const;
@@ -90,6 +94,7 @@ class GroundShare {
   };
   static Mat3 moment_ease(const Sole& sole, const DynamicsScratch& dynamics);
   Vec3 middle_of(const Sole& sole, const Bearing& bearing);  // middle of its bearing area, in its link's frame
+  void factorise();
   SpatialForce multipliers(const SpatialForce& net) const;
   SpatialForce share_of(std::size_t standing, const SpatialForce& multipliers) const;
   std::vector<Foot> feet_;

@@ -146,6 +146,19 @@ void put_balls_inside(const Character& character, const Multibody& body, FigureS
   }
 }
 
+void put_legs_inside(const Character& character, const Multibody& body, std::span<const char> held,
+                     FigureState& state) {
+  constexpr double kSlight_rad = 0.1 * kRadPerDeg;
+  for (std::size_t i = 1; i < body.links().size(); ++i) {
+    const Link& link = body.links()[i];
+    if (held[at(link.dof)] == 0 || link.kind != JointKind::hinge) continue;
+    double& angle = state.coords[at(link.coord)];
+    double inside = angle;
+    clamp_to_range(character.joints()[i], &inside);
+    if (std::fabs(inside - angle) <= kSlight_rad) angle = inside;
+  }
+}
+
 bool overbends(const Character& character, const Multibody& body, std::span<const char> held,
                std::span<const double> target, const FigureState& state) {
   constexpr double kOver_rad = 0.03;

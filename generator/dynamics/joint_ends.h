@@ -22,6 +22,10 @@ void stop_at_ends(const Character& character, const Multibody& body, std::span<c
 // tick, which goes straight, passes them by a little, also where its velocity is bounded.
 void put_balls_inside(const Character& character, const Multibody& body, FigureState& state);
 
+// Puts hinges of legs that stand (`held`) back to their ends if they are beyond by at most 0.1 degrees. A foot that is
+// guided along a target at the end of a range overshoots it by less, and its sole moves by some 0.1 mm.
+void put_legs_inside(const Character& character, const Multibody& body, std::span<const char> held, FigureState& state);
+
 // Returns true if a hinge of a leg with a standing foot is beyond the end of its range, and beyond its angle in the
 // target (by coordinate), by more than 0.03 rad, and moving outward. A knee that a walk stretches stays below that. No
 // ground can hold a leg that bends so far.

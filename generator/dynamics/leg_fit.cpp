@@ -34,11 +34,16 @@ bool LegFit::overbend(std::span<const double> row) const {
 }
 
 bool LegFit::overlap(std::uint8_t legs, const Rigid& root, std::span<const double> row, DynamicsScratch& scratch) {
+  return is_near(legs, -kOverlap_m, root, row, scratch);
+}
+
+bool LegFit::is_near(std::uint8_t legs, double gap_m, const Rigid& root, std::span<const double> row,
+                     DynamicsScratch& scratch) {
   if (legs == 0) return false;
   place(body_, root, row, scratch);
-  bodies_.find(scratch, 0.0, false);
+  bodies_.find(scratch, std::max(0.0, gap_m), false);
   return std::ranges::any_of(bodies_.contacts(), [&](const BodyContact& contact) {
-    return contact.gap_m < -kOverlap_m && ((leg_of_[at(contact.link_a)] | leg_of_[at(contact.link_b)]) & legs) != 0;
+    return contact.gap_m < gap_m && ((leg_of_[at(contact.link_a)] | leg_of_[at(contact.link_b)]) & legs) != 0;
   });
 }
 

@@ -21,6 +21,9 @@ class LegFit {
   // Returns true if one of these legs (bit i: leg i) overlaps another body. If there are legs, the scratch is placed
   // anew.
   bool overlap(std::uint8_t legs, const Rigid& root, std::span<const double> row, DynamicsScratch& scratch);
+  // Returns true if another body is nearer to one of them than this.
+  bool is_near(std::uint8_t legs, double gap_m, const Rigid& root, std::span<const double> row,
+               DynamicsScratch& scratch);
 
  private:
   const Character& character_;

@@ -5,7 +5,7 @@
 #include "generator/dynamics/joint_ends.h"
 #include "generator/dynamics/linear.h"
 #include "generator/dynamics/racing.h"
-#include "generator/dynamics/soft_joints.h"
+#include "generator/dynamics/soft_legs.h"
 #include "generator/dynamics/target.h"
 #include "model/core/index.h"
 
@@ -201,6 +201,7 @@ class Simulation {
     if (stop_racing(body_, figure_.fastest, state_.velocity) && is_loose) s_.loose.keep_way(s_.equation);
     integrate(body_, state_.velocity, tick_s_, state_.root, state_.coords);
     if (is_loose) put_balls_inside(character_, body_, state_);
+    put_legs_inside(character_, body_, s_.contacts.feet().stands_by_dof(), state_);
   }
 
   void stop_joints() {
@@ -250,7 +251,7 @@ class Simulation {
 void simulate(const Character& character, const DynamicsSetup& setup, const Environment& environment,
               SimulationScratch& scratch, Motion& motion) {
   const std::vector<Leg> legs = find_legs(character);
-  soften_legs(character, legs, environment, setup.easy, motion);
+  soften_legs(character, setup.figure, legs, environment, setup.easy, motion);
   keep_enough_feet(character, legs, setup.figure, environment, motion);
   ContactPlan plan(character, setup.figure, environment, motion);
   const BalancePlan balance = make_possible(character, setup.figure, setup.easy, plan, setup.ticks_per_frame, motion);

@@ -39,12 +39,13 @@ Vec3 way_between(const Joint& joint, const Posture& from, const Posture& to) {
   return joint_way_vector(joint, from.coords.data() + joint.coord, to.coords.data() + joint.coord);
 }
 
-// Returns true if the joint's speed changes slowly enough.
-bool keeps_pace(const Character& character, int j, const Past& past, const Posture& shown) {
+// Returns true if the joint's speed changes slowly enough for this acceleration at ease; empty: without mass.
+bool keeps_pace(const Character& character, int j, const Past& past, std::span<const double> easy,
+                const Posture& shown) {
   const Joint& joint = character.joint(j);
   const Vec3 step = way_between(joint, past.before, shown), last = way_between(joint, past.earlier, past.before);
   double most = joint.max_speed / kRise_s;
-  if (!past.easy.empty()) most = std::min(most, kWithMass * past.easy[at(j)]);
+  if (!easy.empty()) most = std::min(most, kWithMass * easy[at(j)]);
   return length(step - last) <= most * past.frame_s * past.frame_s;
 }
 
@@ -53,7 +54,7 @@ bool keeps_pace(const Character& character, int j, const Past& past, const Postu
 bool moves_smoothly(const Character& character, int j, const Past& past, const Posture& shown) {
   const Joint& joint = character.joint(j);
   return length(way_between(joint, past.before, shown)) <= kLifted * joint.max_speed * past.frame_s &&
-         keeps_pace(character, j, past, shown);
+         keeps_pace(character, j, past, past.easy, shown);
 }
 
 struct Clearance::Case {
@@ -97,6 +98,9 @@ struct Clearance::Case {
       return limb.is_its_own(feet.legs()[at(leg)]) || feet.is_planted(at(leg));
     });
   }
+  bool has_own_foot() const {
+    return std::ranges::any_of(limb.legs, [&](int leg) { return limb.is_its_own(feet.legs()[at(leg)]); });
+  }
   double room_m(const RoomRange& range) { return place(), room.room_m(part, world, range); }
   bool has_room(double least_m) { return place(), room.has_room(part, world, least_m); }
 
@@ -117,7 +121,8 @@ struct Clearance::Case {
     return all_joints([&](int j) { return length(step_of(j)) <= share * greatest_step(j); });
   }
   bool is_smooth() const {
-    return all_joints([&](int j) { return keeps_pace(character, j, past, shown); });
+    const std::span<const double> easy = has_own_foot() ? std::span<const double>() : past.easy;
+    return all_joints([&](int j) { return keeps_pace(character, j, past, easy, shown); });
   }
   // Returns true if the limb is clear at the end of the way that it takes to stop, if it is too fast to stop at once.
   bool can_stop() {

@@ -1,10 +1,14 @@
 // Single actions of figures with mass, as an audit draws them, without a finding.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 #include "generator/dynamics/contact_plan.h"
 #include "generator/dynamics/foot_lifts.h"
+#include "model/core/index.h"
+#include "model/motion/kinematics.h"
+#include "tests/character/stock.h"
 #include "tests/generator/scenes_of_one.h"
 #include "tests/stage_evaluator.h"
 
@@ -52,6 +56,50 @@ TEST(SingleActions, AStruckFootIsLiftedOnceFromWhereItStood) {
   const std::vector<FootLift> lifts = foot_lifts(plan, 2);
   ASSERT_EQ(lifts.size(), 1U);
   EXPECT_LT(length(lifts[0].to.p_m - lifts[0].from.p_m), 0.01);
+}
+
+// A leg that came after the blow at ease was taken forwards by its lift, and passed its place by half a metre.
+TEST(SingleActions, AStruckFootGoesWhereTheBlowTakesItAndComesBack) {
+  const Stage stage = stage_with_mass("mech", blow(119.0, 39.0, 39));
+  const Motion motion = generate(stage);
+  std::vector<Rigid> world(stage.character->joints().size());
+  std::vector<double> ahead_m;
+  for (int f = 0; f < motion.frame_count; ++f) {
+    forward_kinematics(*stage.character, motion.root[at(f)], motion.row(f), world);
+    const bool is_first = stage.character->parts()[at(stage.legs[0].part)].slot == "leg_left";
+    const Leg& leg = stage.legs[is_first ? 0 : 1];
+    ahead_m.push_back(world_from_socket(*stage.character, world, leg.sole).p_m.z);
+  }
+  EXPECT_NEAR(ahead_m.front(), 0.0, 1e-3) << "it stands in the first frame";
+  EXPECT_LT(*std::ranges::min_element(ahead_m), -0.02) << "the blow comes from ahead";
+  EXPECT_LT(*std::ranges::max_element(ahead_m), 0.005);
+  EXPECT_NEAR(ahead_m.back(), 0.0, 1e-3);
+}
+
+// The lift of a foot that had to stop counted as its speed: the knee swung up to 74 degrees.
+TEST(SingleActions, ALegThatStopsBesideAHandDoesNotSwingOn) {
+  ActionUse reach = use("reach", "leg_left", 0, 60, {{"swivel_deg", 169.0}, {"target_m", Vec3(0.14, 0.06, 0.19)}});
+  reach.blend_in_frames = -1;
+  const Stage stage = stage_with_mass("human", reach);
+  const Motion motion = generate(stage);
+  const auto knee = at(fixtures::joint(*stage.character, "leg_left/knee").coord);
+  for (int f = 0; f < motion.frame_count; ++f) EXPECT_LT(motion.row(f)[knee], 40.0 * kRadPerDeg) << f;
+}
+
+// Paws that stay while the trunk turns came 0.01 degrees beyond the ends of their joints.
+TEST(SingleActions, LegsAtTheEndsOfTheirRangesStayInside) {
+  for (const auto& [azimuth_deg, elevation_deg] : {std::pair(44.0, -73.0), std::pair(-80.0, -60.0)}) {
+    ActionUse turn = use("direction", "trunk", 0, 89, {{"azimuth_deg", azimuth_deg}, {"elevation_deg", elevation_deg}});
+    turn.blend_in_frames = -1;
+    EXPECT_TRUE(found_in(stage_with_mass("quadruped", turn)).empty()) << azimuth_deg;
+  }
+}
+
+// The trunk turns round over one foot. The other one bears next to nothing and gave a moment of 47 N m.
+TEST(SingleActions, AFootThatBearsLittleGivesLittleMoment) {
+  ActionUse look = use("look_at", "torso", 0, 41, {{"target_m", Vec3(1.5, 2.03, -0.63)}});
+  look.blend_in_frames = -1;
+  EXPECT_TRUE(found_in(stage_with_mass("human", look)).empty());
 }
 
 // Its balls get slower while it aims: a figure that follows misses a share of that in each of them.
