@@ -14,6 +14,7 @@ constexpr double kCornerNear_m = 0.02;
 constexpr double kGives_m = 0.02;   // of toes and heels: a figure without toe joints rolls over the tips of its feet
 constexpr double kSlide_m_s = 0.1;  // feet of recorded motion do slide
 constexpr double kTouches_s = 0.15;
+constexpr double kOn_m = 0.004;  // a foot that bears comes as near to the ground at some time
 constexpr double kRise_m_s = 0.03;  // but one that rises has been lifted: to hold it would fight its own leg
 
 struct CornerPlace {
@@ -60,26 +61,30 @@ ContactPlan::ContactPlan(const Character& character, const DynamicFigure& figure
       if (std::fabs(places[at(f * per_frame + i)].gap_m) < kCornerNear_m &&
           (frame_count_ == 1 || rests(f - 1, f, i) || rests(f, f + 1, i)))
         bearings_[index(f, i / 4)].corners |= static_cast<std::uint8_t>(1U << (i % 4));
+  std::vector<double> lowest_m;  // frames x soles
   for (int f = 0; f < frame_count_; ++f)
     for (int s = 0; s < sole_count_; ++s) {
-      double highest_m = 0.0;
-      for (int k = 0; k < 4; ++k) highest_m = std::max(highest_m, places[at(f * per_frame + 4 * s + k)].gap_m);
-      bearings_[index(f, s)].depth = highest_m > kGives_m ? kGives_m / highest_m : 1.0;
+      const auto corners = std::span(places).subspan(at(f * per_frame + 4 * s), 4);
+      const auto [low, high] = std::ranges::minmax_element(corners, {}, &CornerPlace::gap_m);
+      lowest_m.push_back(low->gap_m);
+      bearings_[index(f, s)].depth = high->gap_m > kGives_m ? kGives_m / high->gap_m : 1.0;
     }
-  for (int s = 0; s < sole_count_; ++s) drop_touches(s);
+  for (int s = 0; s < sole_count_; ++s) drop_touches(s, lowest_m);
   count_airborne();
 }
 
-// A foot on its way that touches the ground with an edge for a moment, while another foot stands, bears nothing.
-void ContactPlan::drop_touches(int sole) {
+// A foot on its way that touches the ground with an edge for a moment, or is slow above it, bears nothing while another
+// foot stands.
+void ContactPlan::drop_touches(int sole, std::span<const double> lowest_m) {
   for (int f = 0, end = 0; f < frame_count_; f = end + 1) {
-    bool is_flat = false, others_stand = true;
+    bool is_flat = false, is_on_ground = false, others_stand = true;
     for (end = f; end < frame_count_ && bearing(end, sole).corners != 0; ++end) {
       is_flat = is_flat || bearing(end, sole).corners == kAllCorners;
+      is_on_ground = is_on_ground || lowest_m[index(end, sole)] < kOn_m;
       others_stand = others_stand && standing(end) != (1U << sole);
     }
-    const bool is_passing = f > 0 && end < frame_count_ && end - f < kTouches_s * rate_hz_;
-    if (!is_passing || is_flat || !others_stand) continue;
+    const bool is_passing = f > 0 && end < frame_count_ && end - f < kTouches_s * rate_hz_ && !is_flat;
+    if (!others_stand || (is_on_ground && !is_passing)) continue;
     for (int g = f; g < end; ++g) bearings_[index(g, sole)].corners = 0;
   }
 }

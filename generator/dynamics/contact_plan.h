@@ -21,7 +21,7 @@ class ContactPlan {
 
   int frame_count() const { return frame_count_; }
   // A sole bears on the corners that are near the ground and stay in place, and then as long as these are less than 2
-  // cm above the ground.
+  // cm above the ground. At some time in between one of them comes within 4 mm of it.
   const Bearing& bearing(int frame, int sole) const { return bearings_[index(frame, sole)]; }
   // Bit i: sole i bears on at least one corner.
   std::uint8_t standing(int frame) const;
@@ -38,7 +38,7 @@ class ContactPlan {
 
  private:
   std::size_t index(int frame, int sole) const { return static_cast<std::size_t>(frame * sole_count_ + sole); }
-  void drop_touches(int sole);
+  void drop_touches(int sole, std::span<const double> lowest_m);
   void count_airborne();
   SoleMotion slope(int frame, int sole) const;
   SoleMotion bend(int frame, int sole) const;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kShare = 0.25;       // of the way to standing, at once
 constexpr double kNear_s = 0.3;
-constexpr double kStays_m = 0.15;     // a root that travels farther within kNear_s to either side is that of a gait
+constexpr double kStays_m = 0.3;     // a root that travels farther within kNear_s to either side is that of a gait
 constexpr double kLowest_m = 0.03;    // height that a foot keeps over the ground
 constexpr double kLeastSize = 0.02;   // of a lift that can still become smaller
 

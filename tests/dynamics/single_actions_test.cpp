@@ -102,6 +102,29 @@ TEST(SingleActions, AFootThatBearsLittleGivesLittleMoment) {
   EXPECT_TRUE(found_in(stage_with_mass("human", look)).empty());
 }
 
+// The foot is slow at the top of its small step, 15 mm above the ground, and counted as one that bears there.
+TEST(SingleActions, AFootThatStepsOnTheSpotIsInTheAirOnce) {
+  ActionUse aim = use("aim", "torso", 0, 59, {{"point", std::string("chest")}, {"target_m", Vec3(-0.71, 2.21, 0.11)}});
+  aim.blend_in_frames = -1;
+  const Motion motion = generate(stage_with_mass("human", aim));
+  for (const int foot : {0, 1}) {
+    int lifts = 0;
+    for (std::size_t f = 1; f < motion.response.stances.size(); ++f) {
+      const auto stands = [&](std::size_t frame) { return (motion.response.stances[frame].planned >> foot & 1) != 0; };
+      lifts += stands(f - 1) && !stands(f) ? 1 : 0;
+    }
+    EXPECT_EQ(lifts, 1) << foot;
+  }
+}
+
+// The hips went 20 cm ahead within 0.3 s, which counted as a gait, whose hips do not come back towards standing.
+TEST(SingleActions, AnklesStayInTheirRangesInACrouchFarAhead) {
+  ActionUse crouch = use("crouch", "waist", 0, 41, {{"back_m", -0.44}, {"lean_deg", -30.0}, {"share", 0.46}});
+  crouch.blend_in_frames = -1;
+  for (const Finding& finding : found_in(stage_with_mass("human", crouch)))
+    EXPECT_NE(finding.check, "joint_range") << finding.subject;
+}
+
 // Its balls get slower while it aims: a figure that follows misses a share of that in each of them.
 TEST(SingleActions, ATailOfBallsPointsAtItsTargetWhileItSlowsDown) {
   ActionUse aim = use("aim", "tail", 0, 40, {{"point", std::string("tip")}, {"target_m", Vec3(-2.1, 1.1, -3.9)}});
