@@ -5,7 +5,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
+#include <set>
 
+#include "checks/joint_map.h"
 #include "generator/actions/action.h"
 #include "generator/motion/aim_tables.h"
 #include "generator/recordings.h"
@@ -47,6 +50,24 @@ Issue with_advice_for_clips(Issue issue, const std::string& path) {
   return issue;
 }
 
+// The maps that `import` wrote beside its characters. If several folders have one for a name, the first counts.
+Result<Done> load_joint_maps(const std::string& folder, Library& into) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  std::set<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder + "/maps", error))
+    if (entry.path().extension() == ".json") files.insert(entry.path());
+  for (const fs::path& file : files) {
+    if (const Result<Done> inside = check_inside(folder, file.string()); !inside) return inside.issue();
+    const Result<std::string> text = read_json_file(file.string(), "a map of joints (JSON)");
+    if (!text) return text.issue();
+    Result<JointMap> map = parse_joint_map(*text);
+    if (!map) return about_file(file.string(), map.issue());
+    into.joint_maps.try_emplace(file.stem().string(), std::move(map->joints));
+  }
+  return Done{};
+}
+
 }  // namespace
 
 Result<SpecInput> parse_spec_input(const std::string& text, const std::string& path) {
@@ -66,6 +87,7 @@ Result<Library> load_libraries(const std::vector<std::string>& folders) {
   for (const std::string& folder : folders) {
     if (const Result<Done> loaded = load_folder(folder, library); !loaded) return loaded.issue();
     if (const Result<Done> loaded = load_recordings(folder, library); !loaded) return loaded.issue();
+    if (const Result<Done> loaded = load_joint_maps(folder, library); !loaded) return loaded.issue();
     if (const Result<Done> inside = check_inside(folder, folder + "/aim"); !inside) return inside.issue();
     shared_aim_tables().read_from(folder + "/aim");
   }

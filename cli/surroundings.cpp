@@ -21,7 +21,7 @@ std::string id_of_file(const std::string& path) {
 
 // Returns true for files that load_folder and load_recordings read. Reports and corpora may be in the same folder.
 bool is_of_library(const fs::directory_entry& entry) {
-  constexpr std::array<std::string_view, 5> kKinds = {".json", ".glb", ".gltf", ".bin", ".bvh"};
+  constexpr std::array<std::string_view, 7> kKinds = {".json", ".glb", ".gltf", ".bin", ".bvh", ".amc", ".asf"};
   std::error_code error;
   return entry.is_regular_file(error) && std::ranges::find(kKinds, entry.path().extension().string()) != kKinds.end();
 }
@@ -30,13 +30,14 @@ bool is_of_library(const fs::directory_entry& entry) {
 
 std::string surroundings_id(const Context& context, const Manifest& manifest) {
   std::string ids = id_of_file("/proc/self/exe") + id_of_file(context.settings_file) + manifest.build;
-  for (const std::string& folder : context.sources.libraries) {
-    std::set<std::string> names;
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder, error))
-      if (is_of_library(entry)) names.insert(entry.path().filename().string());
-    for (const std::string& name : names) ids += "\n" + name + "\n" + id_of_file(folder + "/" + name);
-  }
+  for (const std::string& library : context.sources.libraries)
+    for (const std::string& folder : {library, library + "/maps"}) {
+      std::set<std::string> names;
+      std::error_code error;
+      for (const auto& entry : fs::directory_iterator(folder, error))
+        if (is_of_library(entry)) names.insert(entry.path().filename().string());
+      for (const std::string& name : names) ids += "\n" + name + "\n" + id_of_file(folder + "/" + name);
+    }
   return content_id(ids);
 }
 

@@ -43,6 +43,22 @@ Issue unknown_clip(const RecordingDesc& desc) {
           desc.clip.empty() ? desc.name + " holds no clip" : "found \"" + desc.clip + "\", which no clip is called"};
 }
 
+// The joints that nodes move: those that the recording names. If it names none, a character that was imported has the
+// nodes of its own file.
+std::map<std::string, std::string> joints_of(const RecordingDesc& desc, const Asset& asset, const Character& character,
+                                             const Library& library) {
+  const auto own = library.joint_maps.find(character.name());
+  if (!desc.joints.empty() || own == library.joint_maps.end()) return desc.joints;
+  std::map<std::string, std::string> joints;
+  for (const auto& [node, joint] : own->second) {
+    const bool is_there = std::ranges::any_of(asset.nodes, [&](const AssetNode& one) {
+      return one.label == node || one.name == node;
+    });
+    if (is_there && character.find_joint(joint) >= 0) joints[node] = joint;
+  }
+  return joints;
+}
+
 Result<Motion> play_recording(const Spec& spec, const Character& character, const Library& library,
                               const Rigid& start) {
   const RecordingDesc& desc = spec.recording;
@@ -55,7 +71,8 @@ Result<Motion> play_recording(const Spec& spec, const Character& character, cons
   const Asset& asset = *found->second;
   const AssetClip* clip = find_clip(asset, desc.clip);
   if (clip == nullptr) return unknown_clip(desc);
-  const RecordingUse use{asset, *clip, desc.joints, desc.from_s, spec.rate_hz, spec.hold_frames, start};
+  const std::map<std::string, std::string> joints = joints_of(desc, asset, character, library);
+  const RecordingUse use{asset, *clip, joints, desc.from_s, spec.rate_hz, spec.hold_frames, start};
   if (desc.from_s > clip->last_s - clip->first_s)
     return Issue{"recording.too_late", "/recording/from_s",
                  "the clip lasts " + number_text(clip->last_s - clip->first_s) + " s"};

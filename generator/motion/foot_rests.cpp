@@ -49,10 +49,7 @@ double usual_height_m(const EndPath& end, double slow_m_s) {
   std::vector<double> heights_m;
   for (std::size_t f = 0; f < end.height_m.size(); ++f)
     if (end.speed_m_s[f] < slow_m_s) heights_m.push_back(end.height_m[f]);
-  if (heights_m.empty()) return std::numeric_limits<double>::infinity();
-  const auto middle = heights_m.begin() + static_cast<std::ptrdiff_t>(heights_m.size() / 2);
-  std::nth_element(heights_m.begin(), middle, heights_m.end());
-  return *middle;
+  return heights_m.empty() ? std::numeric_limits<double>::infinity() : median(std::move(heights_m));
 }
 
 // By frame: true from where an end is slow and low until it is fast or high, or the foot too steep.

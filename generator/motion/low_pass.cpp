@@ -10,6 +10,23 @@
 
 namespace contort {
 
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Vec3 median(const std::vector<Vec3>& values) {
+  Vec3 best(0.0);
+  double least_m = std::numeric_limits<double>::infinity();
+  for (const Vec3& one : values) {
+    double sum_m = 0.0;
+    for (const Vec3& other : values) sum_m += length(one - other);
+    if (sum_m < least_m) least_m = sum_m, best = one;
+  }
+  return best;
+}
+
 namespace {
 
 constexpr double kTail = 4.0;      // standard deviations on either side
@@ -72,30 +89,13 @@ std::vector<Quat> filtered(const std::vector<double>& weights, const std::vector
   return out;
 }
 
-double middle_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-Vec3 middle_of(const std::vector<Vec3>& values) {
-  Vec3 best(0.0);
-  double least_m = std::numeric_limits<double>::infinity();
-  for (const Vec3& one : values) {
-    double sum_m = 0.0;
-    for (const Vec3& other : values) sum_m += length(one - other);
-    if (sum_m < least_m) least_m = sum_m, best = one;
-  }
-  return best;
-}
-
 template <typename Value>
 std::vector<Value> medians_of(const std::vector<Value>& values, double rate_hz) {
   std::vector<Value> out;
   const int last = static_cast<int>(values.size()) - 1, reach = static_cast<int>(std::ceil(kJump_s * rate_hz));
   for (int f = 0; f <= last; ++f) {
     const int r = std::min({reach, f, last - f});
-    out.push_back(middle_of(std::vector<Value>(values.begin() + f - r, values.begin() + f + r + 1)));
+    out.push_back(median(std::vector<Value>(values.begin() + f - r, values.begin() + f + r + 1)));
   }
   return out;
 }

@@ -16,9 +16,12 @@ namespace contort {
 // frames are replaced by their median over 0.1 s, and what that takes away comes back slowly.
 void remove_jumps(const Character& character, Motion& motion);
 
-// Returns the values, each replaced by the median of those within 0.05 s of it; less far near the ends. The median of
-// vectors is the one with the least sum of distances from the others, in whatever direction the axes are (J. Astola et
-// al., "Vector median filters", Proc. IEEE 78, 1990).
+// The values must not be empty. The median of vectors is the one with the least sum of distances from the others, in
+// whatever direction the axes are (J. Astola et al., "Vector median filters", Proc. IEEE 78, 1990).
+double median(std::vector<double> values);
+Vec3 median(const std::vector<Vec3>& values);
+
+// Returns the values, each replaced by the median of those within 0.05 s of it; less far near the ends.
 std::vector<Vec3> medians(const std::vector<Vec3>& values, double rate_hz);
 
 void low_pass(const Character& character, double cutoff_hz, Motion& motion);

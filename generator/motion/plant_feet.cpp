@@ -9,6 +9,7 @@
 #include "generator/motion/lowering.h"
 #include "generator/motion/place_foot.h"
 #include "generator/motion/soft_height.h"
+#include "generator/motion/walk_on_spot.h"
 #include "model/core/detmath.h"
 #include "model/core/index.h"
 #include "model/motion/kinematics.h"
@@ -198,7 +199,8 @@ class MotionPlanter {
 
   void run() {
     if (legs_.empty()) return;
-    const std::vector<SolePath> given = sole_paths(character_, legs_, motion_);
+    std::vector<SolePath> given = sole_paths(character_, legs_, motion_);
+    walk_on(belt_velocity_m_s(legs_, given, environment_, motion_), given);
     for (std::size_t i = 0; i < legs_.size(); ++i)
       rests_.push_back(find_rests(legs_[i], given[i], environment_, motion_.rate_hz));
     remove_jumps(character_, motion_);
@@ -214,6 +216,16 @@ class MotionPlanter {
   }
 
  private:
+  // A walk on the spot goes on over ground that stands.
+  void walk_on(const Vec3& belt_m_s, std::span<SolePath> paths) {
+    if (belt_m_s == Vec3(0.0)) return;
+    for (int f = 0; f < motion_.frame_count; ++f) {
+      const Vec3 way_m = (-f / motion_.rate_hz) * belt_m_s;
+      motion_.root[at(f)].p_m += way_m;
+      for (SolePath& path : paths) path[at(f)].p_m += way_m;
+    }
+  }
+
   double cutoff_hz() const {
     double mean_rad_s = 0.0;
     for (const Leg& leg : legs_) mean_rad_s += pendulum_rad_s(leg) / static_cast<double>(legs_.size());

@@ -20,6 +20,8 @@ struct Library {
   std::map<std::string, CharacterDesc> characters;
   std::vector<ActionDesc> actions;  // from files; actions for kinds of parts come before actions for named parts
   std::map<std::string, std::shared_ptr<const Asset>> recordings;  // animations, by file name without ending
+  // The joint that follows each node of the file from which a character was imported, by the character's name.
+  std::map<std::string, std::map<std::string, std::string>> joint_maps;
 };
 
 // Returns the library with `human`, `mech` and `quadruped`. It is built once and needs no files.

@@ -102,6 +102,38 @@ TEST(PlantFeet, AFigureWithMassFollowsARecordingWhoseFeetFloatTiltAndSlide) {
   }
 }
 
+// The frames [60, 240) of a walk, without its way.
+Motion on_the_spot(const Motion& walk) {
+  Motion out = walk;
+  out.frame_count = 180;
+  const auto first = at(60 * walk.coord_count), end = at(240 * walk.coord_count);
+  out.coords.assign(walk.coords.begin() + static_cast<std::ptrdiff_t>(first),
+                    walk.coords.begin() + static_cast<std::ptrdiff_t>(end));
+  out.root.assign(walk.root.begin() + 60, walk.root.begin() + 240);
+  const Vec3 way = (out.root.back().p_m - out.root.front().p_m) / 179.0;
+  for (int f = 0; f < 180; ++f) out.root[at(f)].p_m -= static_cast<double>(f) * Vec3(way.x, 0.0, way.z);
+  out.spans.clear(), out.queue.clear();
+  return out;
+}
+
+TEST(PlantFeet, AWalkOnTheSpotGoesOnAsFastAsItsFeetSlid) {
+  for (const char* name : {"human", "mech", "quadruped"}) {
+    Spec spec = walk(name);
+    spec.dynamics.mode = Mode::dynamic;
+    Stage stage = *build_stage(spec, stock_library());
+    const Motion given = generate(*build_stage(walk(name), stock_library()));
+    const double given_m = length(given.root[239].p_m - given.root[60].p_m);
+    Motion recorded = on_the_spot(given);
+    plant_feet(*stage.character, stage.legs, stage.environment, recorded);
+    const double way_m = length(recorded.root.back().p_m - recorded.root.front().p_m);
+    EXPECT_NEAR(way_m, given_m, 0.05 * given_m) << name;
+    stage.recorded = std::make_shared<const Motion>(recorded);
+    const Motion motion = generate(stage);
+    for (int f = 0; f < motion.frame_count; ++f)
+      ASSERT_EQ(motion.response.stances[at(f)].footing, Footing::standing) << name << " " << f;
+  }
+}
+
 TEST(PlantFeet, AFigureThatNeverTouchesTheGroundStaysInTheAir) {
   const Stage stage = *build_stage(walk("human"), stock_library());
   Motion motion = generate(stage);

@@ -49,6 +49,29 @@ TEST(Recording, AMotionOfOurOwnComesBackFromItsFile) {
   }
 }
 
+TEST(Recording, TheMapOfAnImportedCharacterAppliesIfTheSpecNamesNoNodes) {
+  Taken t = taken(scene("human_tracking"));
+  Asset renamed = *t.library.recordings.at("taken");
+  std::map<std::string, std::string> map = {{"elsewhere", "head/neck_flex"}, {"Brow", "horn/joint"}};
+  for (AssetNode& node : renamed.nodes) {
+    map["node of " + node.name] = node.name;
+    node.name = node.label = "node of " + node.name;
+  }
+  t.library.recordings["taken"] = std::make_shared<const Asset>(renamed);
+  const Motion resting = generate(*build_stage(t.spec, t.library));
+  t.library.joint_maps["human"] = map;
+  const Motion motion = generate(*build_stage(t.spec, t.library));
+  double moves = 0.0;
+  for (std::size_t i = 0; i < motion.coords.size(); ++i) {
+    ASSERT_NEAR(motion.coords[i], t.original.coords[i], 2e-6) << i;
+    moves = std::max(moves, std::fabs(motion.coords[i] - resting.coords[i]));
+  }
+  EXPECT_GT(moves, 0.1) << "without the map no joint has a node";
+  t.spec.recording.joints = {{"node of leg_left/knee", "leg_left/knee"}};
+  const Motion knee = generate(*build_stage(t.spec, t.library));
+  EXPECT_NE(knee.coords, motion.coords) << "what the spec names is all that counts";
+}
+
 TEST(Recording, ItStartsWhereTheSpecSays) {
   Taken t = taken(scene("human_tracking"));
   t.spec.start.position_m = {3, 0, -2}, t.spec.start.heading_deg = 90.0;
