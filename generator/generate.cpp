@@ -346,15 +346,6 @@ class Generation {
     return freedom_of(frame, stage_.legs, stage_.environment, static_cast<int>(p));
   }
 
-  // A leg that is hit goes where the blow takes it. Its foot is lifted meanwhile, and a leg that came after the blow at
-  // ease would pass its place.
-  bool is_struck(std::size_t p) const {
-    return std::ranges::any_of(stage_.legs, [&](const Leg& leg) {
-      const bool is_own = static_cast<int>(p) == leg.part || static_cast<int>(p) == leg.foot_part;
-      return is_own && (s_.rules.feedback()[at(leg.part)].impact || s_.rules.feedback()[at(leg.foot_part)].impact);
-    });
-  }
-
   // Legs that walk have their own speeds: held back one by one, their feet would leave the ground that they stand on.
   void follow(const Playback& playback, std::size_t p) {
     const LayerStack& stack = s_.stacks[p];
@@ -366,7 +357,7 @@ class Generation {
              LimbKeeper(stage_, s_).stays_planted(p))
       s_.path.pass(p, coords);
     else
-      s_.behind[p] = s_.path.follow(p, coords, is_struck(p) ? JointPath::Pace::struck : JointPath::Pace::at_ease);
+      s_.behind[p] = s_.path.follow(p, coords, LimbKeeper(stage_, s_).is_struck(p) ? Haste::struck : Haste::at_ease);
   }
 
   const Stage& stage_;

@@ -327,8 +327,17 @@ void LimbKeeper::note_feet(const Playback& playback) {
   }
 }
 
+bool LimbKeeper::is_struck(std::size_t p) const {
+  return std::ranges::any_of(stage_.legs, [&](const Leg& leg) {
+    const bool is_own = static_cast<int>(p) == leg.part || static_cast<int>(p) == leg.foot_part;
+    return is_own && (s_.rules.feedback()[at(leg.part)].impact || s_.rules.feedback()[at(leg.foot_part)].impact);
+  });
+}
+
 void LimbKeeper::keep_clear(const Limb& limb, bool was_lifted) {
-  switch (s_.clearance.keep(at(limb.parts.back()), s_.past, was_lifted, s_.postures.shown, s_.rules.world())) {
+  const auto part = at(limb.parts.back());
+  const Haste haste = is_struck(part) ? Haste::struck : Haste::at_ease;
+  switch (s_.clearance.keep(part, s_.past, {was_lifted, haste}, s_.postures.shown, s_.rules.world())) {
     case Clearance::Kept::as_wanted: return;
     case Clearance::Kept::foot_lifted: return shift(limb, Shift::lifted);
     case Clearance::Kept::elsewhere: break;

@@ -73,6 +73,7 @@ struct Clearance::Case {
   double enough_m = -kTooNear_m;
   bool is_lifted = false;
   bool was_lifted = false;
+  Haste haste = Haste::at_ease;
 
   // A foot of the limb's own that stands is lifted, and those on legs that it carries stay where they stood.
   void place() {
@@ -98,9 +99,6 @@ struct Clearance::Case {
       return limb.is_its_own(feet.legs()[at(leg)]) || feet.is_planted(at(leg));
     });
   }
-  bool has_own_foot() const {
-    return std::ranges::any_of(limb.legs, [&](int leg) { return limb.is_its_own(feet.legs()[at(leg)]); });
-  }
   double room_m(const RoomRange& range) { return place(), room.room_m(part, world, range); }
   bool has_room(double least_m) { return place(), room.has_room(part, world, least_m); }
 
@@ -121,7 +119,7 @@ struct Clearance::Case {
     return all_joints([&](int j) { return length(step_of(j)) <= share * greatest_step(j); });
   }
   bool is_smooth() const {
-    const std::span<const double> easy = has_own_foot() ? std::span<const double>() : past.easy;
+    const std::span<const double> easy = haste == Haste::struck ? std::span<const double>() : past.easy;
     return all_joints([&](int j) { return keeps_pace(character, j, past, easy, shown); });
   }
   // Returns true if the limb is clear at the end of the way that it takes to stop, if it is too fast to stop at once.
@@ -278,12 +276,12 @@ void Clearance::begin(const Character& character, LimbRoom& room) {
   stay_ = saved_ = spare_ = wanted_;
 }
 
-Clearance::Kept Clearance::keep(std::size_t part, const Past& past, bool was_lifted, Posture& shown,
+Clearance::Kept Clearance::keep(std::size_t part, const Past& past, const LimbState& state, Posture& shown,
                                 std::span<Rigid> world) {
   const Limb& limb = room_->limb_of(part);
   for (const int p : limb.parts) copy_part(*character_, at(p), shown, wanted_);
   Case now{*character_, *room_, room_->feet(), limb, part, past, wanted_, stay_, shown, saved_, spare_, world};
-  now.was_lifted = was_lifted;
+  now.was_lifted = state.was_lifted, now.haste = state.haste;
   const double wanted_m = wanted_m_ = now.room_m({-kTooNear_m, kSlowsDown_m});
   const bool is_easy = now.can_stop() && (!now.concerns_feet() || (now.is_slow() && now.is_smooth()));
   const Kept as_wanted = now.is_lifted ? Kept::foot_lifted : Kept::as_wanted;

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "generator/motion/joint_path.h"
 #include "generator/motion/limb_room.h"
 #include "model/motion/motion.h"
 
@@ -31,11 +32,17 @@ class Clearance {
   // The room that the limb would have had at its wanted place, in the last call of keep().
   double wanted_room_m() const { return wanted_m_; }
 
+  struct LimbState {
+    bool was_lifted = false;  // its foot, in the frame before
+    Haste haste = Haste::at_ease;
+  };
+
   // `shown` has the wanted posture of the part's limb, and then the one that is reached. A foot that stands is lifted.
   // `world` holds the transforms of all joints; those of the limb and of the parts that it carries are updated. Joints
   // give way at a third of their greatest speed. A limb whose foot was lifted in the previous frame returns slowly
   // enough to stop: its knee, which ends straight, is fastest at the end.
-  Kept keep(std::size_t part, const Past& past, bool was_lifted, Posture& shown, std::span<Rigid> world);
+  Kept keep(std::size_t part, const Past& past, const LimbState& state, Posture& shown,
+            std::span<Rigid> world);
 
  private:
   struct Case;  // data of one call

@@ -89,7 +89,7 @@ struct JointPath::Limits {
 JointPath::Limits JointPath::limits_of(int j, bool is_behind) const {
   const double speed = kShare * character_->joint(j).max_speed * frame_s_;
   const double change = speed * std::min(1.0, frame_s_ / (is_behind ? kGentle_s : kShortest_s));
-  if (most_change_.empty() || pace_ == Pace::struck) return {speed, change, change};
+  if (most_change_.empty() || haste_ == Haste::struck) return {speed, change, change};
   const double easy = most_change_[at(j)];
   const State& state = joints_[at(j)];
   const double brake = state.is_corrected ? std::max(easy, kBrakes * length(state.speed)) : easy;
@@ -142,8 +142,8 @@ bool JointPath::rests(int j, double wanted) const {
          joints_[at(j)].speed == Vec3(0.0);
 }
 
-bool JointPath::follow(std::size_t part, std::span<double> coords, Pace pace) {
-  pace_ = pace;
+bool JointPath::follow(std::size_t part, std::span<double> coords, Haste haste) {
+  haste_ = haste;
   const Part& own = character_->parts()[part];
   bool is_behind = false;
   for (int j = own.first_joint; j < own.first_joint + own.joint_count; ++j) {

@@ -10,6 +10,9 @@
 
 namespace contort {
 
+// Joints that are struck have no limits by accelerations at ease.
+enum class Haste { at_ease, struck };
+
 // Frames come in order; each part is followed, passed or cut in each frame, with the part's own coordinates in a row of
 // the character's. Memory is reused.
 class JointPath {
@@ -19,12 +22,9 @@ class JointPath {
   void begin(const Character& character, std::span<const double> coords, double rate_hz,
              std::span<const double> easy = {});
 
-  // Joints that are struck have no limits by `easy`.
-  enum class Pace { at_ease, struck };
-
   // `coords` has the wanted posture, and afterwards the one that the joints reach in this frame. Returns true if a
   // joint has not arrived yet.
-  bool follow(std::size_t part, std::span<double> coords, Pace pace = Pace::at_ease);
+  bool follow(std::size_t part, std::span<double> coords, Haste haste = Haste::at_ease);
 
   // The part has its wanted posture, and continues at its present speed, up to the greatest allowed one.
   void pass(std::size_t part, std::span<const double> coords);
@@ -54,7 +54,7 @@ class JointPath {
 
   const Character* character_ = nullptr;
   double frame_s_ = 0.0;
-  Pace pace_ = Pace::at_ease;
+  Haste haste_ = Haste::at_ease;
   std::vector<double> most_change_;  // by joint, per frame; empty: by the greatest speed
   std::vector<double> now_;     // coordinates in the previous frame
   std::vector<double> wanted_;  // wanted coordinates in the previous frame
