@@ -50,11 +50,11 @@ std::map<std::string, std::string> joints_of(const RecordingDesc& desc, const As
   const auto own = library.joint_maps.find(character.name());
   if (!desc.joints.empty() || own == library.joint_maps.end()) return desc.joints;
   std::map<std::string, std::string> joints;
-  for (const auto& [node, joint] : own->second) {
-    const bool is_there = std::ranges::any_of(asset.nodes, [&](const AssetNode& one) {
-      return one.label == node || one.name == node;
+  for (const auto& entry : own->second) {
+    const bool is_there = std::ranges::any_of(asset.nodes, [&](const AssetNode& node) {
+      return node.label == entry.first || node.name == entry.first;
     });
-    if (is_there && character.find_joint(joint) >= 0) joints[node] = joint;
+    if (is_there && character.find_joint(entry.second) >= 0) joints.insert(entry);
   }
   return joints;
 }
