@@ -64,10 +64,13 @@ ContactPlan::ContactPlan(const Character& character, const DynamicFigure& figure
   std::vector<double> lowest_m;  // frames x soles
   for (int f = 0; f < frame_count_; ++f)
     for (int s = 0; s < sole_count_; ++s) {
-      const auto corners = std::span(places).subspan(at(f * per_frame + 4 * s), 4);
-      const auto [low, high] = std::ranges::minmax_element(corners, {}, &CornerPlace::gap_m);
-      lowest_m.push_back(low->gap_m);
-      bearings_[index(f, s)].depth = high->gap_m > kGives_m ? kGives_m / high->gap_m : 1.0;
+      double low_m = places[at(f * per_frame + 4 * s)].gap_m, high_m = low_m;
+      for (int k = 1; k < 4; ++k) {
+        const double gap_m = places[at(f * per_frame + 4 * s + k)].gap_m;
+        low_m = std::min(low_m, gap_m), high_m = std::max(high_m, gap_m);
+      }
+      lowest_m.push_back(low_m);
+      bearings_[index(f, s)].depth = high_m > kGives_m ? kGives_m / high_m : 1.0;
     }
   for (int s = 0; s < sole_count_; ++s) drop_touches(s, lowest_m);
   count_airborne();
