@@ -21,8 +21,8 @@ class LimbKeeper {
   // Returns true if only the trunk that carries it moves this part of a leg, over a foot that stands.
   bool stays_planted(std::size_t p) const;
 
-  // Returns true for a leg, or its foot, that reacts to a blow. It goes where the blow takes it: its foot is lifted at
-  // once, and a leg that came after it at ease would pass its place.
+  // Returns true for a leg, or its foot, that reacts to a blow. Such a leg follows its action without the limits of
+  // acceleration at ease, because its foot is lifted at once: a slower leg would pass its place.
   bool is_struck(std::size_t p) const;
 
   void finish(const Playback& playback, const Limb& limb);

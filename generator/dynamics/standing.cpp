@@ -41,7 +41,7 @@ void Standing::find_ground(const EquationOfMotion& equation, const FootContacts&
   find_support_area(*equation.figure, contacts.feet(), std::max(actuation.forces[1], 0.5 * equation.weight_N()),
                     equation.dynamics, area_);
   ground_.prepare(*equation.figure, contacts.feet(), contacts.firmness(), equation.dynamics);
-  // A blow may tip the figure in this tick; control then finds another load for each sole.
+  // While a blow tips the figure, control changes the load on each sole within the tick.
   if (!is_disturbed_) ground_.follow_load(equation.dynamics, actuation.forces);
   ground_.efforts(*equation.figure, equation.dynamics, actuation.forces, actuation.efforts);
 }

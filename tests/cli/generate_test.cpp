@@ -57,5 +57,26 @@ TEST_F(GenerateCommand, LevelsOfAnimationsAreRefused) {
   EXPECT_NE(ran.err.find("usage.for_specs"), std::string::npos) << ran.err;
 }
 
+TEST(GenerateRecording, TheMapBesideAnImportedCharacterAppliesAndABrokenOneIsNamed) {
+  const TempFolder folder;
+  const std::string walk = folder / "walk.json", play = folder / "play.json", library = folder / "library";
+  std::filesystem::create_directories(library + "/maps");
+  spill(walk, R"({"format": "contort.spec/1", "character": {"name": "human"}, "sequences": [{"clips": [{"actions": [
+    {"action": "walk", "slot": "waist", "duration_frames": 30}]}]}]})");
+  spill(play, R"({"format": "contort.spec/1", "character": {"name": "human"}, "recording": {"name": "walk"}})");
+  ASSERT_EQ(contort_program({"generate", walk, "-o", library + "/walk.glb"}).code, 0);
+  const auto played = [&] {
+    const Ran ran = contort_program({"--library", library, "generate", play, "-o", folder / "out.glb"});
+    return ran.code == 0 ? slurp(folder / "out.glb") : ran.err;
+  };
+  const std::string by_names = played();
+  spill(library + "/maps/human.json", R"({"format": "contort.map/1", "joints": {"leg_left/knee": "leg_right/knee"}})");
+  const std::string by_map = played();
+  EXPECT_EQ(by_map.substr(0, 4), "glTF") << by_map;
+  EXPECT_NE(by_map, by_names);
+  spill(library + "/maps/human.json", "{");
+  EXPECT_NE(played().find("maps/human.json"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace contort

@@ -58,7 +58,7 @@ TEST(SingleActions, AStruckFootIsLiftedOnceFromWhereItStood) {
   EXPECT_LT(length(lifts[0].to.p_m - lifts[0].from.p_m), 0.01);
 }
 
-// A leg that came after the blow at ease was taken forwards by its lift, and passed its place by half a metre.
+// The leg followed its reaction slowly, but its foot was lifted at once: the foot went half a metre ahead of its place.
 TEST(SingleActions, AStruckFootGoesWhereTheBlowTakesItAndComesBack) {
   const Stage stage = stage_with_mass("mech", blow(119.0, 39.0, 39));
   const Motion motion = generate(stage);
