@@ -150,9 +150,12 @@ class PlaceWalker {
     }
   }
 
-  // Modes are ordered, so a mode can be moved towards its default in steps; but it has no range of other values.
+  // Modes are ordered, so a mode can be moved towards its default in steps; but it has no range of other values. A spec
+  // with impacts keeps its mode, because the mode tracking has no strength or balance to answer a blow.
   template <class E>
   void add_enum(const std::string& at, E& value, E preset) {
+    if constexpr (std::is_same_v<S, DynamicsDesc>)
+      if (!value_.impacts.empty()) return;
     SpecField place{at, true, static_cast<double>(value), static_cast<double>(preset), 0.0, 0.0, 1.0, {}};
     place.low = place.high = place.value;
     out_.push_back({place,

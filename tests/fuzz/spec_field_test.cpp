@@ -100,14 +100,21 @@ TEST(SpecFields, NumbersHaveTheLimitsAndLatticesOfTheirDeclarations) {
   EXPECT_EQ(place_at(all, "/loads/0/mass_kg").preset, 5.0);
   EXPECT_EQ(place_at(all, "/loads/0/mass_kg").steps_per_unit, 2.0);
   EXPECT_EQ(place_at(all, "/impacts/0/impulse_N_s/1").low, -40.0);
-  EXPECT_EQ(place_at(all, "/dynamics/mode").value, 2.0);
 }
 
 TEST(SpecFields, AModeIsLoweredByOne) {
   Spec spec = bent_elbow(90);
   spec.dynamics.mode = Mode::dynamic;
+  EXPECT_EQ(place_at(places(spec), "/dynamics/mode").value, 2.0);
   set_spec_field(spec, place_at(places(spec), "/dynamics/mode"), 1.0);
   EXPECT_EQ(spec.dynamics.mode, Mode::tracking);
+}
+
+TEST(SpecFields, AModeWithAnImpactIsNotLoweredBecauseOnlyDynamicControlAnswersIt) {
+  Spec spec = bent_elbow(90);
+  spec.dynamics.mode = Mode::dynamic;
+  spec.dynamics.impacts.emplace_back().slot = "head";
+  for (const SpecField& place : places(spec)) EXPECT_FALSE(place.pointer.ends_with("/dynamics/mode"));
 }
 
 TEST(SpecFields, WithoutTheCharacterParametersHaveNoLimits) {
