@@ -73,15 +73,23 @@ void add_end(const Joint& ball, const double* coords, double (*share)(const Join
 
 bool has_twist_ends(const Joint& ball) { return ball.high - ball.low < 2.0 * kPi; }
 
-// A turn that goes along an end, or as far as it, but no farther. A ball that is outside does not go farther out.
-Vec3 stopped(const BallEnds& ends, const Vec3& turn_rad, bool comes_back) {
+// A turn that goes along an end, or as far along its outward direction as `most` returns, but no farther.
+template <class Most>
+Vec3 stopped(const BallEnds& ends, const Vec3& turn_rad, Most most) {
   Vec3 turn = turn_rad;
   for (int pass = 0; pass < kEndPasses; ++pass)
-    for (const BallEnd& end : ends.all()) {
-      const double most = comes_back ? end.room_rad : std::max(end.room_rad, 0.0);
-      turn += std::min(0.0, most - glm::dot(turn, end.out)) * end.out;
-    }
+    for (const BallEnd& end : ends.all()) turn += std::min(0.0, most(end) - glm::dot(turn, end.out)) * end.out;
   return turn;
+}
+
+// The way that the target goes from the figure's joint in this time, at its present rate and acceleration.
+Vec3 way_of_target(const Link& link, const TargetAhead& target, double ahead_s) {
+  Vec3 way(0.0);
+  for (int k = 0; k < link.dof_count; ++k) {
+    const std::size_t dof = at(link.dof + k);
+    way[k] = target.way[dof] + ahead_s * (target.velocity[dof] + 0.5 * ahead_s * target.acceleration[dof]);
+  }
+  return way;
 }
 
 }  // namespace
@@ -106,30 +114,33 @@ BallEnds near_ends(const Joint& ball, const double* coords, double within_rad) {
 }
 
 void slow_at_ends(const Character& character, const Multibody& body, std::span<const char> held,
-                  const FigureState& state, double ahead_s, std::span<double> acceleration) {
+                  const FigureState& state, const TargetAhead& target, double ahead_s, std::span<double> acceleration) {
   const double per_distance = 2.0 / (ahead_s * ahead_s);
   for_free(character, body, held, [&](const Joint& joint, const Link& link) {
+    const Vec3 planned = way_of_target(link, target, ahead_s);
     if (link.kind == JointKind::ball) {
       const Vec3 rate = three_of(state.velocity, link.dof), asked_now = three_of(acceleration, link.dof);
       const Vec3 turn = ahead_s * rate + asked_now / per_distance;
+      const auto most = [&](const BallEnd& end) { return std::max(end.room_rad, glm::dot(planned, end.out)); };
       if (const BallEnds ends = ball_ends(joint, &state.coords[at(link.coord)], turn); ends.count > 0)
-        set_three(acceleration, link.dof, asked_now + per_distance * (stopped(ends, turn, true) - turn));
+        set_three(acceleration, link.dof, asked_now + per_distance * (stopped(ends, turn, most) - turn));
       return;
     }
     double& asked = acceleration[at(link.dof)];
-    const double then = state.coords[at(link.coord)] + ahead_s * state.velocity[at(link.dof)];
-    asked = std::min(asked, per_distance * (joint.high - then));
-    asked = std::max(asked, per_distance * (joint.low - then));
+    const double now = state.coords[at(link.coord)], then = now + ahead_s * state.velocity[at(link.dof)];
+    asked = std::min(asked, per_distance * (std::max(joint.high, now + planned.x) - then));
+    asked = std::max(asked, per_distance * (std::min(joint.low, now + planned.x) - then));
   });
 }
 
 void stop_at_ends(const Character& character, const Multibody& body, std::span<const char> held, double tick_s,
                   FigureState& state) {
+  const auto not_farther_out = [](const BallEnd& end) { return std::max(end.room_rad, 0.0); };
   for_free(character, body, held, [&](const Joint& joint, const Link& link) {
     if (link.kind == JointKind::ball) {
       const Vec3 turn = tick_s * three_of(state.velocity, link.dof);
       if (const BallEnds ends = ball_ends(joint, &state.coords[at(link.coord)], turn); ends.count > 0)
-        set_three(state.velocity, link.dof, stopped(ends, turn, false) / tick_s);
+        set_three(state.velocity, link.dof, stopped(ends, turn, not_farther_out) / tick_s);
       return;
     }
     double& rate = state.velocity[at(link.dof)];

@@ -10,9 +10,11 @@
 
 namespace contort {
 
-// Bounds accelerations so that no joint passes its end within `ahead_s`.
+// Bounds accelerations so that no joint passes its end within `ahead_s`, except as far as the target would pass it at
+// its present rate and acceleration. A target comes to an end as softly as it must, and a figure that keeps to it and
+// slowed down sooner would arrive late.
 void slow_at_ends(const Character& character, const Multibody& body, std::span<const char> held,
-                  const FigureState& state, double ahead_s, std::span<double> acceleration);
+                  const FigureState& state, const TargetAhead& target, double ahead_s, std::span<double> acceleration);
 
 // Bounds velocities so that no joint leaves its range in this tick; a joint that is outside goes no farther.
 void stop_at_ends(const Character& character, const Multibody& body, std::span<const char> held, double tick_s,

@@ -14,7 +14,6 @@ namespace contort {
 namespace {
 
 constexpr double kRecovers_s = 1.5;  // after an impact
-constexpr double kEndsAhead = 4.0;   // ticks
 constexpr double kNearBody_m = 0.1;  // bodies of the figure that are nearer to each other may touch soon
 constexpr double kBodiesAhead_s = 0.1;
 constexpr double kSlips_m_s = 0.5;  // a sole that an impact makes faster than this does not stand any more
@@ -74,10 +73,6 @@ class Simulation {
   bool is_disturbed() const { return !figure_.loads.empty() || is_struck(); }
   bool is_struck() const { return struck_frame_ >= 0 && frame_ - struck_frame_ < kRecovers_s * motion_.rate_hz; }
 
-  // Returns the time by which joints look ahead for the ends of their ranges. A target comes to them as softly as it
-  // must; a figure that keeps to its target and looked farther would slow down sooner than it, and arrive late.
-  double ends_ahead_s() const { return is_disturbed() ? shortest_horizon_s(tick_s_) : kEndsAhead * tick_s_; }
-
   bool leg_overbends() const {
     const auto count = at(motion_.coord_count);
     const std::span target = std::span(motion_.response.target_coords).subspan(at(frame_) * count, count);
@@ -123,7 +118,8 @@ class Simulation {
     frame_time_ = frame;
     s_.contacts.follow_plan(frame, s_.equation.dynamics);
     s_.standing.begin_tick(frame, is_disturbed());
-    slow_at_ends(character_, body_, s_.contacts.feet().stands_by_dof(), state_, ends_ahead_s(), s_.tracked);
+    slow_at_ends(character_, body_, s_.contacts.feet().stands_by_dof(), state_, track_.ahead,
+                 shortest_horizon_s(tick_s_), s_.tracked);
     find_bodies(index == 0);
     if (is_disturbed()) s_.bodies.slow(s_.equation, kBodiesAhead_s, s_.tracked);
     if (is_dynamic())

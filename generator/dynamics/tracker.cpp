@@ -72,7 +72,9 @@ struct Tick {
   double frame;
   double length_s;
   double missed;  // missed_s2
-  double before() const { return frame - length_s * target.rate_hz(); }
+  double before() const { return after(-length_s); }
+  double after(double time_s) const { return frame + target.rate_hz() * time_s; }
+  double horizon_to(int link) const { return horizon_s(target.knots(link), frame, target.rate_hz(), length_s); }
 };
 
 // The rate that a joint has which goes with its target. A step of semi-implicit Euler goes with the rate of its middle,
@@ -85,15 +87,27 @@ Vec3 last_rate(const Link& link, const Tick& tick, const TargetLead& last, const
   return way_between(link, before.coords, lead.coords) / tick.length_s;
 }
 
+struct Ahead {
+  Vec3 way, velocity, acceleration;
+};
+
+void store(const Link& link, const Ahead& ahead, TargetAhead& out) {
+  for (int k = 0; k < link.dof_count; ++k) {
+    const std::size_t dof = static_cast<std::size_t>(link.dof + k);
+    out.way[dof] = ahead.way[k], out.velocity[dof] = ahead.velocity[k], out.acceleration[dof] = ahead.acceleration[k];
+  }
+}
+
 // The acceleration of a joint that goes as its target goes, so that one that is on its target stays on it, and that is
 // brought back as by a critically damped spring.
-void lead_joint(const Link& link, const Tick& tick, double stiffness_per_s, const double* now, const double* velocity,
+Ahead lead_joint(const Link& link, const Tick& tick, double stiffness_per_s, const double* now, const double* velocity,
                 TargetLead& last, double* acceleration) {
   const TargetLead lead = lead_at(link, tick.target, tick.frame, tick.missed);
   const Vec3 rate = last_rate(link, tick, last, lead), off = way_between(link, now, lead.coords);
   for (int k = 0; k < link.dof_count; ++k)
     acceleration[k] = lead.acceleration[k] + spring(stiffness_per_s, off[k], rate[k] - velocity[k]);
   last = lead;
+  return {off, rate, lead.acceleration};
 }
 
 // A root that legs carry along follows as joints do.
@@ -131,6 +145,33 @@ void track_joint(const Link& link, const TargetMotion& target, double then, doub
     acceleration[0] = cubic_acceleration(now[0], velocity[0], goal[0], rates[0], ahead_s);
 }
 
+Ahead ahead_at(const Link& link, const TargetMotion& target, double frame, const FigureState& state) {
+  double goal[4], rates[3]{}, bends[3]{};
+  target.joint_at(link, frame, goal, rates);
+  target.joint_acceleration_at(link, frame, bends);
+  return {way_between(link, &state.coords[static_cast<std::size_t>(link.coord)], goal), vec_at(rates), vec_at(bends)};
+}
+
+// Returns how the target's joint is relative to the figure's.
+Ahead follow_joint(const Link& link, int index, const Tick& tick, const Tracking& how, const FigureState& state,
+                   TargetLead& last, double* acceleration) {
+  if (how.exactly || how.returns_softly)
+    return lead_joint(link, tick, how.returns_softly ? kSoftJointStiffness : kJointStiffness,
+                      &state.coords[static_cast<std::size_t>(link.coord)],
+                      &state.velocity[static_cast<std::size_t>(link.dof)], last, acceleration);
+  const double ahead_s = tick.horizon_to(index);
+  track_joint(link, tick.target, tick.after(ahead_s), ahead_s, state, acceleration);
+  return ahead_at(link, tick.target, tick.frame, state);
+}
+
+void follow_root(const Tick& tick, const Tracking& how, const FigureState& state, TargetLead& turn, TargetLead* travels,
+                 std::span<double> acceleration) {
+  if (how.root_leads || how.returns_softly)
+    return lead_root(tick, how.returns_softly ? kSoftRoot : kLedRoot, state, turn, travels, acceleration);
+  const double ahead_s = tick.horizon_to(0);
+  track_root(tick.target, tick.after(ahead_s), ahead_s, state, acceleration);
+}
+
 }  // namespace
 
 double missed_of_bend(int ticks_per_frame) { return (1.0 - 1.0 / (ticks_per_frame * ticks_per_frame)) / 6.0; }
@@ -157,25 +198,13 @@ void track(const Multibody& body, const TargetMotion& target, double frame, doub
   const Tick tick{target, frame, tick_s, missed_s2(tick_s, target.rate_hz())};
   const std::size_t count = body.links().size();
   scratch.leads.resize(count + 3);
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::vector<double>* values : {&scratch.ahead.way, &scratch.ahead.velocity, &scratch.ahead.acceleration})
+    values->resize(static_cast<std::size_t>(body.dof_count()));
+  follow_root(tick, how, state, scratch.leads[0], &scratch.leads[count], acceleration);
+  for (std::size_t i = 1; i < count; ++i) {
     const Link& link = body.links()[i];
     double* own = &acceleration[static_cast<std::size_t>(link.dof)];
-    const bool is_root = link.kind == JointKind::root;
-    if (is_root && (how.root_leads || how.returns_softly)) {
-      lead_root(tick, how.returns_softly ? kSoftRoot : kLedRoot, state, scratch.leads[i], &scratch.leads[count],
-                acceleration);
-    } else if (!is_root && (how.exactly || how.returns_softly)) {
-      lead_joint(link, tick, how.returns_softly ? kSoftJointStiffness : kJointStiffness,
-                 &state.coords[static_cast<std::size_t>(link.coord)],
-                 &state.velocity[static_cast<std::size_t>(link.dof)], scratch.leads[i], own);
-    } else {
-      const double ahead_s = horizon_s(target.knots(static_cast<int>(i)), frame, target.rate_hz(), tick_s);
-      const double then = frame + target.rate_hz() * ahead_s;
-      if (is_root)
-        track_root(target, then, ahead_s, state, acceleration);
-      else
-        track_joint(link, target, then, ahead_s, state, own);
-    }
+    store(link, follow_joint(link, static_cast<int>(i), tick, how, state, scratch.leads[i], own), scratch.ahead);
   }
 }
 

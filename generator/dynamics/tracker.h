@@ -35,9 +35,17 @@ struct TargetLead {
   Vec3 acceleration{0.0};
 };
 
-// Results of the last tick, by joint and three travels of the root. They save half of the work in the next one.
+// The joints of a target relative to a figure that follows it, by degree of freedom; not set for the root.
+struct TargetAhead {
+  std::vector<double> way;  // from the figure's joint to the target's, rad or m
+  std::vector<double> velocity;
+  std::vector<double> acceleration;
+};
+
 struct TrackScratch {
+  // Results of the last tick, by joint and three travels of the root. They save half of the work in the next one.
   std::vector<TargetLead> leads;
+  TargetAhead ahead;  // a result of track()
 };
 
 // The accelerations of all degrees of freedom at a time in frames, each joint separately; tick_s is the time until the

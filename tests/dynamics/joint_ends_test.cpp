@@ -102,5 +102,37 @@ TEST(BallEnds, HoldTheTailOfADogThatFalls) {
   EXPECT_GT(most_rad, 0.5) << "it does not whip about at all";
 }
 
+// The greatest angle by which a joint is off its target, after a blow that is too weak to move it, while a pose takes
+// it to the end of its range.
+double greatest_error_rad(const std::string& character, const std::string& slot, const std::string& joint_name,
+                          const std::string& params) {
+  const Result<Spec> spec = parse_spec(R"({"format": "contort.spec/1", "character": {"name": ")" +
+                                         character + R"("}, "dynamics":
+      {"mode": "dynamic", "impacts": [{"slot": "head", "impulse_N_s": [0.0, 0.0, 0.5]}]}, "sequences": [{"clips":
+      [{"actions": [{"action": "pose", "slot": ")" + slot + R"(", "speed": 2, "params": )" + params +
+                                R"(}]}]}]})");
+  if (!spec) throw std::logic_error(to_line(spec.issue()));
+  const Result<Stage> stage = build_stage(*spec, stock_library());
+  if (!stage) throw std::logic_error(to_line(stage.issue()));
+  const Motion motion = generate(*stage);
+  const Joint& joint = stage->character->joint(stage->character->find_joint(slot + "/" + joint_name));
+  double greatest = 0.0;
+  for (int frame = 0; frame < motion.frame_count; ++frame) {
+    const std::size_t at = static_cast<std::size_t>(frame * motion.coord_count + joint.coord);
+    const double *now = &motion.coords[at], *goal = &motion.response.target_coords[at];
+    greatest = std::max(greatest, joint.kind == JointKind::ball
+                                      ? rotation_angle(glm::conjugate(quat_at(now)) * quat_at(goal))
+                                      : std::fabs(now[0] - goal[0]));
+  }
+  return greatest;
+}
+
+// Joints that looked ahead for their ends without regard to their target were up to 10 degrees late.
+TEST(JointEnds, AFigureThatWasStruckReachesThemTogetherWithItsTarget) {
+  EXPECT_LT(greatest_error_rad("human", "hand_right", "wrist_flex", R"({"wrist_flex_deg": 72})"), 1.0 * kRadPerDeg);
+  EXPECT_LT(greatest_error_rad("human", "arm_right", "elbow", R"({"elbow_deg": 149})"), 1.0 * kRadPerDeg);
+  EXPECT_LT(greatest_error_rad("quadruped", "tail", "tail_2", R"({"tail_2_deg": [39, 0, 0]})"), 1.5 * kRadPerDeg);
+}
+
 }  // namespace
 }  // namespace contort

@@ -46,6 +46,16 @@ TEST(SingleActions, ALegThatIsStruckAsksNoMoreOfTheOtherThanItsStrength) {
   EXPECT_TRUE(found_in(stage_with_mass("mech", blow(25.0, 43.0, 65), {{"leg_left", "mech_leg_reverse"}})).empty());
 }
 
+// Hips of 900 N m could not hold what stands on one leg: 459 kg, 0.2 m beside it.
+TEST(SingleActions, AMechOfTheHeaviestPartsStandsOnEitherOfItsLegs) {
+  for (const char* leg : {"mech_leg_human", "mech_leg_reverse"}) {
+    const Parts heaviest{{"torso", "mech_torso_heavy"}, {"back", "mech_pack_large"},      {"arm_left", "mech_arm_shield"},
+                         {"leg_left", leg},             {"arm_right", "mech_arm_shield"}, {"leg_right", leg}};
+    for (const char* lifted : {"leg_left", "leg_right"})
+      EXPECT_TRUE(found_in(stage_with_mass("mech", use("reach", lifted, 0, 60, {}), heaviest)).empty()) << leg << lifted;
+  }
+}
+
 // It leaves the ground in the first frame, and its edge touches the ground on the way.
 TEST(SingleActions, AStruckFootIsLiftedOnceFromWhereItStood) {
   const Stage stage = stage_with_mass("mech", blow(25.0, 43.0, 65), {{"leg_left", "mech_leg_reverse"}});
