@@ -54,7 +54,7 @@ struct Stock {
   const Character& character;
   const Offers& offers;
   const Features& features;
-  const Environment& environment;  // the place in which the figure stands at rest
+  PosedFigure& posed;
   std::vector<const Part*> parts;
 
   Actions actions(const Part& part) const {
@@ -77,9 +77,8 @@ struct Stock {
   }
 };
 
-Stock stock_of(const Character& character, const Offers& offers, const Features& features,
-               const Environment& environment) {
-  Stock all{character, offers, features, environment, {}};
+Stock stock_of(const Character& character, const Offers& offers, const Features& features, PosedFigure& posed) {
+  Stock all{character, offers, features, posed, {}};
   for (const Part& part : character.parts())
     if (!all.actions(part).empty()) all.parts.push_back(&part);
   all.parts = features.among(all.parts, "slot", features.profile().slots,
@@ -112,7 +111,7 @@ ActionUse compose_action(const RawAction& raw, const Stock& stock) {
     draw_blend(raw.blend_out, "blend_out_frames", use.blend_out_frames);
   draw_params(stock.character, part, action, profile, raw.values, use);
   if (is_pose(action) && !profile.wild_poses && !narrows(profile, part, action))
-    make_sensible(stock.character, part, action.params, stock.environment, use);
+    stock.posed.add_sensible(part, action.params, use);
   return use;
 }
 
@@ -307,7 +306,8 @@ Spec compose(const RawSpec& raw, const DrawConfig& config, Generator& generator)
   if (!character) return spec;  // the caller's build gives the reason
   spec.environment = compose_environment(raw, features, manifest.can, *character);
   const Environment beside = walls_of(spec.environment);
-  const Stock stock = stock_of(*character, generator.offers(*character), features, beside);
+  PosedFigure posed(*character, beside);
+  const Stock stock = stock_of(*character, generator.offers(*character), features, posed);
   for (const std::vector<RawClip>& clips : raw.sequences)
     if (SequenceDesc sequence = compose_sequence(clips, stock); !sequence.clips.empty())
       spec.sequences.push_back(std::move(sequence));

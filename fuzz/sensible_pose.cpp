@@ -45,28 +45,47 @@ void put(const Joint& joint, const ParamValue& value, std::span<double> row) {
   }
 }
 
-// The figure at rest, with one part on its way from rest to a pose.
+void put_between(const Joint& joint, std::span<const double> from, std::span<const double> end, double share,
+                 std::span<double> row) {
+  const double *a = from.data() + joint.coord, *b = end.data() + joint.coord;
+  double* q = row.data() + joint.coord;
+  if (joint.kind != JointKind::ball) {
+    q[0] = a[0] + share * (b[0] - a[0]);
+    return;
+  }
+  const Quat between = slerp_short(Quat(a[0], a[1], a[2], a[3]), Quat(b[0], b[1], b[2], b[3]), share);
+  q[0] = between.w, q[1] = between.x, q[2] = between.y, q[3] = between.z;
+}
+
+// One part on its way to a pose.
 class WayToPose {
  public:
   WayToPose(const Character& character, const Part& part, const std::vector<ParamDef>& params, ActionUse& use)
-      : character_(character) {
+      : character_(character), part_(part) {
     for (std::size_t i = 0; i < params.size(); ++i)
       if (const auto value = use.params.find(params[i].name);
           params[i].domain == Domain::joint_range && value != use.params.end())
         joints_.push_back({&character.joint(part.first_joint + static_cast<int>(i)), &value->second, value->second});
   }
 
-  bool is_clear(const Environment& environment) const {
-    constexpr std::array kOfPoses = {std::string_view("self_collision"), std::string_view("ground_penetration"),
-                                     std::string_view("obstacle_penetration")};
+  bool is_clear(std::span<const double> from, const Environment& environment) const {
+    constexpr std::array kCollisions = {std::string_view("self_collision"), std::string_view("ground_penetration"),
+                                        std::string_view("obstacle_penetration")};
     Judge judge;
-    const Motion motion = frames();
-    return std::ranges::none_of(
-        kOfPoses, [&](std::string_view check) { return !judge.judge(character_, motion, check, environment).empty(); });
+    const Motion motion = frames(from);
+    const auto is_of_part = [&](const Finding& finding) { return finding.subject.starts_with(part_.slot + "/"); };
+    return std::ranges::none_of(judge.judge(character_, motion, "joint_range", environment), is_of_part) &&
+           std::ranges::all_of(kCollisions, [&](std::string_view check) {
+             return judge.judge(character_, motion, check, environment).empty();
+           });
   }
 
   void shorten_to(double share) {
     for (const Posed& posed : joints_) *posed.value = part_of_way(character_, *posed.joint, posed.drawn, share);
+  }
+
+  void put_into(std::span<double> row) const {
+    for (const Posed& posed : joints_) put(*posed.joint, *posed.value, row);
   }
 
  private:
@@ -76,23 +95,24 @@ class WayToPose {
     ParamValue drawn;
   };
 
-  Motion frames() const {
-    constexpr int kFrames = 5;
+  Motion frames(std::span<const double> from) const {
+    constexpr int kFrames = 9;
     Motion motion;
     motion.frame_count = kFrames;
     motion.coord_count = character_.coord_count();
     motion.root.assign(kFrames, character_.rest_root());
+    std::vector<double> end(from.begin(), from.end());
+    put_into(end);
     for (int frame = 0; frame < kFrames; ++frame) {
-      const std::span<const double> rest = character_.rest_coords();
-      motion.coords.insert(motion.coords.end(), rest.begin(), rest.end());
+      motion.coords.insert(motion.coords.end(), from.begin(), from.end());
       for (const Posed& posed : joints_)
-        put(*posed.joint, part_of_way(character_, *posed.joint, *posed.value, frame / (kFrames - 1.0)),
-            motion.row(frame));
+        put_between(*posed.joint, from, end, frame / (kFrames - 1.0), motion.row(frame));
     }
     return motion;
   }
 
   const Character& character_;
+  const Part& part_;
   std::vector<Posed> joints_;
 };
 
@@ -104,15 +124,17 @@ bool carries_sole(const Character& character, int part) {
   });
 }
 
-void make_sensible(const Character& character, const Part& part, const std::vector<ParamDef>& params,
-                   const Environment& environment, ActionUse& use) {
-  WayToPose way(character, part, params, use);
+void PosedFigure::add_sensible(const Part& part, const std::vector<ParamDef>& params, ActionUse& use) {
+  WayToPose way(character_, part, params, use);
+  const auto is_clear = [&] {
+    return way.is_clear(character_.rest_coords(), environment_) && way.is_clear(row_, environment_);
+  };
   double share = 1.0;
-  for (int halves = 0; !way.is_clear(environment); ++halves) {
+  for (int halves = 0; share > 0.0 && !is_clear(); ++halves) {
     share = halves < kMostHalves ? 0.5 * share : 0.0;
     way.shorten_to(share);
-    if (share == 0.0) return;
   }
+  way.put_into(row_);
 }
 
 }  // namespace contort

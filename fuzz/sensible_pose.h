@@ -13,10 +13,24 @@ namespace contort {
 // Returns true if the part, or a part that it carries, has a sole. A random pose of it drags a foot over the ground.
 bool carries_sole(const Character& character, int part);
 
-// Moves the joint values in use.params (those of Domain::joint_range) towards rest, halving them until no body of the
-// figure collides with another one, the ground or an obstacle on the way from rest to the pose. After four halvings,
-// the values are those of rest. All other joints are at rest.
-void make_sensible(const Character& character, const Part& part, const std::vector<ParamDef>& params,
-                   const Environment& environment, ActionUse& use);
+// The joints of a figure after the poses that were drawn for it so far; each stays until another pose moves its part.
+class PosedFigure {
+ public:
+  // The figure at rest. The arguments must outlive this object.
+  PosedFigure(const Character& character, const Environment& environment)
+      : character_(character),
+        environment_(environment),
+        row_(character.rest_coords().begin(), character.rest_coords().end()) {}
+
+  // Moves the joint values in use.params (those of Domain::joint_range) towards rest, halving them until no joint
+  // leaves its range, and no body of the figure collides with another one, the ground or an obstacle, on two ways to
+  // the pose: from rest, and from the poses before. After four halvings, the values are those of rest.
+  void add_sensible(const Part& part, const std::vector<ParamDef>& params, ActionUse& use);
+
+ private:
+  const Character& character_;
+  const Environment& environment_;
+  std::vector<double> row_;
+};
 
 }  // namespace contort

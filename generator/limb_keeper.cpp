@@ -162,11 +162,15 @@ void LimbKeeper::plant(const Limb& limb) {
 
 // In the first frame after a course of legs, the trunk that carries a leg may go on, or be hit: the foot stays where
 // the course has put it.
-bool LimbKeeper::stay_after_course(int leg) {
+bool LimbKeeper::stays_after_course(int leg) const {
   const StandingFeet& feet = s_.rules.feet();
   const bool is_carried = carrier_of(*stage_.character, stage_.legs[at(leg)].part) != 0;
-  if (!is_carried || feet.moves(at(leg)) || !feet.rests_at(at(leg))) return false;
-  feet.put_to_rest(at(leg), s_.rules.world(), s_.postures.shown.coords);
+  return is_carried && !feet.moves(at(leg)) && feet.rests_at(at(leg)).has_value();
+}
+
+bool LimbKeeper::stay_after_course(int leg) {
+  if (!stays_after_course(leg)) return false;
+  s_.rules.feet().put_to_rest(at(leg), s_.rules.world(), s_.postures.shown.coords);
   return true;
 }
 

@@ -42,6 +42,7 @@ class LimbKeeper {
   const Limb& limb_at(std::size_t p) const { return s_.rules.room().limb_of(p); }
   void shift(const Limb& limb, Shift shift);
   void plant(const Limb& limb);
+  bool stays_after_course(int leg) const;
   bool stay_after_course(int leg);
   void place(const Leg& leg, const Posture& posture);
   bool land(const Playback& playback, const Limb& limb);
@@ -56,11 +57,18 @@ class LimbKeeper {
   void go_on_landing(const Limb& limb);
   bool rise(const Limb& limb);
   void hold_over_feet(const Playback& playback, const Limb& limb);
-  bool is_carried_and_stands(const Limb& limb, int leg) const;
+  bool is_carried_and_stands(const Playback& playback, const Limb& limb, int leg) const;
   bool is_carried_on_course(const Playback& playback, const Limb& limb, int leg) const;
   std::optional<FramesAhead> course_of_legs(const Playback& playback) const;
   bool has_moved(const Limb& limb) const;
   bool feet_reach(const Playback& playback, const Limb& limb, double steps, const std::optional<FramesAhead>& course);
+  enum class SoleUse { stays, bends, goes };  // it stays where it was, or follows a bend or a gait
+  template <class Visit>
+  bool visit_soles(const Playback& playback, const Limb& limb, double steps, const std::optional<FramesAhead>& course,
+                   Visit visit);
+  double feet_missed_m(const Playback& playback, const Limb& limb, double steps,
+                       const std::optional<FramesAhead>& course);
+  bool takes_feet_away(const Playback& playback, const Limb& limb, const std::optional<FramesAhead>& course);
   bool is_smooth(const Limb& limb) const;
   bool has_room_on_the_way(const Limb& limb, double gap_m, bool is_rising = false);
   void arrive(const Limb& limb);

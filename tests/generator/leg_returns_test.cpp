@@ -115,5 +115,34 @@ TEST(LegReturns, ABendThatFindsAFootInTheAirIsNoDeeperThanTheStandingLegCan) {
   EXPECT_EQ(broken(use("reach", "leg_left", 0, 60, {{"target_m", Vec3(0.56, 1.0, -0.16)}}), 10), "");
 }
 
+// The heels of its fore paws rise in the crouch, so that they reach their places.
+TEST(TrunkOverFeet, StopsWhereThePawsOfACrouchStillReach) {
+  const ActionUse crouch = use("crouch", "hips", 0, 30, {{"back_m", -0.28}, {"lean_deg", -5.0}});
+  const Stage stage = fixtures::stage_of({sequence({crouch, use("look_at", "trunk", 0, 30, {})})}, 0,
+                                         stock("quadruped"));
+  EXPECT_EQ(broken_in(stage), "");
+}
+
+// The trunk bent on in the frame in which the turn ended, and took the paws with it.
+TEST(TrunkOverFeet, WaitsForPawsInTheFirstFrameAfterACourseToo) {
+  const ActionUse look = use("look_at", "trunk", 21, 30, {{"target_m", Vec3(1.7, 1.5, 3.0)}});
+  const Stage stage =
+      fixtures::stage_of({sequence({use("turn", "hips", 0, 49, {}), look})}, 0, stock("quadruped"));
+  EXPECT_EQ(broken_in(stage), "");
+}
+
+// A run that begins while a leg is lifted and the trunk rears up has paws that do not reach their places.
+TEST(TrunkOverFeet, GoesNoFartherFromPawsThatDoNotReach) {
+  const auto blended = [](ActionUse action) {
+    action.blend_in_frames = ActionUse().blend_in_frames;
+    return action;
+  };
+  const ActionUse rear = use("direction", "trunk", 0, 30, {{"elevation_deg", 10.0}});
+  const Stage stage = fixtures::stage_of({sequence({blended(use("reach", "leg_fore_right", 0, 30, {})),
+                                                    blended(use("run", "hips", 9, 30, {})), blended(rear)})},
+                                         0, stock("quadruped"));
+  EXPECT_EQ(broken_in(stage), "");
+}
+
 }  // namespace
 }  // namespace contort
