@@ -50,6 +50,9 @@ class Generation {
     s_.added.assign(character_.parts().size(), 0);
     s_.behind.assign(character_.parts().size(), 0);
     s_.held_off.assign(character_.parts().size(), 0);
+    s_.stuck.assign(character_.parts().size(), 0);
+    s_.squeezes.assign(character_.parts().size(), 0);
+    s_.had_room.assign(character_.parts().size(), 0);
     s_.returns.assign(character_.parts().size(), 0);
     s_.rests.assign(character_.parts().size(), 0);
     s_.free_arm.assign(character_.parts().size(), 0);

@@ -59,6 +59,9 @@ struct GenerateScratch {
   std::vector<char> rests;         // by part: true for a leg or foot that is part of `stand`
   Posture rested;                  // the base of legs and feet when their feet last rested
   std::vector<int> held_off;       // by the last part of a limb: number of frames for which it has been held off
+  std::vector<char> stuck;         // likewise: true for a limb that was held off and did not move
+  std::vector<char> had_room;      // likewise: true for an idle limb that had room in its posture
+  std::vector<char> squeezes;      // likewise: true for a limb that comes back past bodies with a narrow gap
   Posture wanted;                  // wanted posture of a limb that lands
   Posture between;                 // posture between present and wanted
   std::vector<Rigid> rest_world;   // by joint: its place in a leg if only the base moved the leg's carrier

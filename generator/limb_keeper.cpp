@@ -119,7 +119,9 @@ void LimbKeeper::finish(const Playback& playback, const Limb& limb) {
   const bool lands = use == LegUse::lands && land(playback, limb);
   if (use == LegUse::acts || (use == LegUse::lands && !lands)) keep_clear(limb, was_lifted);
   if (use == LegUse::idle) plant(limb);
+  if (loses_room(playback, limb)) keep_clear(limb, was_lifted);
   held_off = s_.shift[at(limb.parts.back())] == Shift::held_off ? held_off + 1 : 0;
+  note_stuck(limb);
   if (held_off > 0) try_again(playback, limb);
   hold_over_feet(playback, limb);
   note_grasp(playback, limb, held);
@@ -338,10 +340,47 @@ bool LimbKeeper::is_struck(std::size_t p) const {
   });
 }
 
+// Returns true for an arm, head or tail that no action moves, and that had room until something else moved: a body of
+// the figure that comes towards it, or a trunk that carries it to a wall. A limb that an author's pose has put too near
+// to a body stays there, and arms that swing with a gait have their own rule.
+bool LimbKeeper::loses_room(const Playback& playback, const Limb& limb) {
+  const std::size_t part = at(limb.parts.back());
+  const LayerHold& gait = s_.stacks[0].ik();
+  const bool swings = s_.free_arm[at(limb.parts.front())] != 0 && gait.action >= 0 && moves_legs(playback, gait);
+  const bool is_idle = limb.legs.empty() && !swings && use_of(playback, limb) == LegUse::idle;
+  const bool has_room = is_idle && s_.rules.room().has_room(part, s_.rules.world());
+  const bool loses = is_idle && !has_room && s_.had_room[part] != 0;
+  s_.had_room[part] = has_room || loses;
+  return loses;
+}
+
+void LimbKeeper::note_stuck(const Limb& limb) {
+  constexpr double kStill_rad = 1e-4;  // or m; in a frame
+  const bool is_still = std::ranges::all_of(limb.joints, [&](int j) {
+    const std::size_t coord = at(stage_.character->joint(j).coord);
+    return joint_way(stage_.character->joint(j), &s_.past.before.coords[coord], &s_.postures.shown.coords[coord]) <
+           kStill_rad;
+  });
+  s_.stuck[at(limb.parts.back())] = s_.shift[at(limb.parts.back())] == Shift::held_off && is_still;
+}
+
+// Returns true for a limb without feet that is on its way back, or that only a blow moves, and that bodies have stopped.
+// Its way may lead past a body with less than the comfortable gap, as when an arm hangs beside a thigh.
+bool LimbKeeper::comes_back_stuck(const Limb& limb) const {
+  return limb.legs.empty() && s_.stuck[at(limb.parts.back())] != 0 && std::ranges::none_of(limb.parts, [&](int p) {
+    return s_.stacks[at(p)].overwrite().action >= 0 || s_.stacks[at(p)].ik().action >= 0;
+  });
+}
+
 void LimbKeeper::keep_clear(const Limb& limb, bool was_lifted) {
   const auto part = at(limb.parts.back());
-  const Haste haste = is_struck(part) ? Haste::struck : Haste::at_ease;
-  switch (s_.clearance.keep(part, s_.past, {was_lifted, haste}, s_.postures.shown, s_.rules.world())) {
+  char& squeezes = s_.squeezes[part];
+  squeezes = squeezes != 0 || comes_back_stuck(limb);
+  const Clearance::LimbState state{was_lifted, is_struck(part) ? Haste::struck : Haste::at_ease,
+                                   squeezes != 0 ? kNarrow_m : kComfortable_m};
+  const Clearance::Kept kept = s_.clearance.keep(part, s_.past, state, s_.postures.shown, s_.rules.world());
+  if (squeezes != 0 && s_.rules.room().has_room(part, s_.rules.world())) squeezes = 0;
+  switch (kept) {
     case Clearance::Kept::as_wanted: return;
     case Clearance::Kept::foot_lifted: return shift(limb, Shift::lifted);
     case Clearance::Kept::elsewhere: break;

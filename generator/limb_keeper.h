@@ -73,6 +73,9 @@ class LimbKeeper {
   bool has_room_on_the_way(const Limb& limb, double gap_m, bool is_rising = false);
   void arrive(const Limb& limb);
   void keep_clear(const Limb& limb, bool was_lifted);
+  bool loses_room(const Playback& playback, const Limb& limb);
+  bool comes_back_stuck(const Limb& limb) const;
+  void note_stuck(const Limb& limb);
   void try_again(const Playback& playback, const Limb& limb);
 
   const Stage& stage_;

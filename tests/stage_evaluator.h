@@ -1,6 +1,7 @@
 // Evaluates stages, which tests build and change by hand, and specs by the built-in generator over the stock library.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -34,6 +35,14 @@ class StageEvaluator {
   GenerateScratch scratch_;
   Execution execution_;
 };
+
+// The findings of a stage, one in each line.
+inline std::string broken_in(const Stage& stage) {
+  StageEvaluator evaluator;
+  std::string all;
+  for (const Finding& finding : evaluator.run(stage).findings) all += finding.check + " " + finding.subject + "\n";
+  return all;
+}
 
 // Each thread has its own.
 inline Generator& stock_generator() {

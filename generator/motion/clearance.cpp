@@ -74,6 +74,7 @@ struct Clearance::Case {
   bool is_lifted = false;
   bool was_lifted = false;
   Haste haste = Haste::at_ease;
+  double gap_m = 1.0;
 
   // A foot of the limb's own that stands is lifted, and those on legs that it carries stay where they stood.
   void place() {
@@ -99,8 +100,11 @@ struct Clearance::Case {
       return limb.is_its_own(feet.legs()[at(leg)]) || feet.is_planted(at(leg));
     });
   }
-  double room_m(const RoomRange& range) { return place(), room.room_m(part, world, range); }
-  bool has_room(double least_m) { return place(), room.has_room(part, world, least_m); }
+  double room_m(RoomRange range) {
+    range.gap_m = gap_m;
+    return place(), room.room_m(part, world, range);
+  }
+  bool has_room(double least_m) { return place(), room.has_room(part, world, least_m, gap_m); }
 
   // Joints of the limb, and of legs that it carries and that stay where they stand.
   template <class Test>
@@ -281,7 +285,7 @@ Clearance::Kept Clearance::keep(std::size_t part, const Past& past, const LimbSt
   const Limb& limb = room_->limb_of(part);
   for (const int p : limb.parts) copy_part(*character_, at(p), shown, wanted_);
   Case now{*character_, *room_, room_->feet(), limb, part, past, wanted_, stay_, shown, saved_, spare_, world};
-  now.was_lifted = state.was_lifted, now.haste = state.haste;
+  now.was_lifted = state.was_lifted, now.haste = state.haste, now.gap_m = state.gap_m;
   const double wanted_m = wanted_m_ = now.room_m({-kTooNear_m, kSlowsDown_m});
   const bool is_easy = now.can_stop() && (!now.concerns_feet() || (now.is_slow() && now.is_smooth()));
   const Kept as_wanted = now.is_lifted ? Kept::foot_lifted : Kept::as_wanted;

@@ -35,6 +35,7 @@ class Clearance {
   struct LimbState {
     bool was_lifted = false;  // its foot, in the frame before
     Haste haste = Haste::at_ease;
+    double gap_m = 1.0;  // between bodies of the figure, at most (RoomRange)
   };
 
   // `shown` has the wanted posture of the part's limb, and then the one that is reached. A foot that stands is lifted.

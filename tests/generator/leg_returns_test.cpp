@@ -17,13 +17,6 @@ std::shared_ptr<const Character> stock(const char* name) {
   return std::make_shared<const Character>(fixtures::built({name, {}, {}}));
 }
 
-std::string broken_in(const Stage& stage) {
-  StageEvaluator evaluator;
-  std::string all;
-  for (const Finding& finding : evaluator.run(stage).findings) all += finding.check + " " + finding.subject + "\n";
-  return all;
-}
-
 Vec3 paw_m(const Character& character, const Motion& motion, int frame) {
   std::vector<Rigid> world(character.joints().size());
   forward_kinematics(character, motion.root[static_cast<std::size_t>(frame)], motion.row(frame), world);
