@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "generator/motion/way.h"
 #include "model/core/index.h"
@@ -18,6 +19,7 @@ constexpr double kGrowth = 1.5;     // which grows where it was too little,
 constexpr double kCatchesUp = 4.0;  // reaches of the first mean, in which a late motion is on time again
 constexpr double kHurries = 2.5;    // or at least in these
 constexpr int kRounds = 6;
+constexpr double kFarAway = std::numeric_limits<double>::infinity();
 
 // Works on some joints of a motion, in the frames that it may change.
 class Softener {
@@ -29,6 +31,7 @@ class Softener {
         easy_(easy),
         joints_(std::move(joints)),
         may_(std::move(may)),
+        most_(frames_to(may_)),
         reach_(may_.size(), 0.0) {}
 
   // Answers whether the motion has changed.
@@ -43,6 +46,19 @@ class Softener {
   }
 
  private:
+  // By frame: the distance to the nearest frame that may not change. Means reach no farther, so that they end there
+  // without a jump.
+  static std::vector<double> frames_to(std::span<const char> may) {
+    std::vector<double> out(may.size(), kFarAway);
+    double since = kFarAway, until = kFarAway;
+    for (std::size_t f = 0; f < may.size(); ++f) {
+      const std::size_t back = may.size() - 1 - f;
+      out[f] = std::min(out[f], since = may[f] != 0 ? since + 1.0 : 0.0);
+      out[back] = std::min(out[back], until = may[back] != 0 ? until + 1.0 : 0.0);
+    }
+    return out;
+  }
+
   // Widens means around jolts. Answers whether there are any.
   bool widen(const Motion& motion) {
     const std::vector<double> before = reach_;
@@ -91,7 +107,7 @@ class Softener {
     const int far = static_cast<int>(std::ceil(2.0 * wide)), last = static_cast<int>(reach_.size()) - 1;
     for (int g = std::max(0, frame - far); g <= std::min(last, frame + far); ++g) {
       const double fades = std::clamp(2.0 - std::abs(g - frame) / wide, 0.0, 1.0);
-      reach_[at(g)] = std::max(reach_[at(g)], fades * wide);
+      reach_[at(g)] = std::max(reach_[at(g)], std::min(fades * wide, most_[at(g)]));
     }
   }
 
@@ -121,7 +137,8 @@ class Softener {
   const double jolt_;  // times the acceleration at ease
   const std::span<const double> easy_;
   const std::vector<int> joints_;
-  const std::vector<char> may_;  // by frame
+  const std::vector<char> may_;    // by frame
+  const std::vector<double> most_;  // by frame: frames_to
   std::vector<double> reach_;    // by frame: of its mean to either side, frames
 };
 

@@ -13,7 +13,7 @@ namespace contort {
 // The longest reach of a mean to either side.
 constexpr double kWidestMean_s = 0.35;
 
-// Changes these joints in the frames where `may` is not 0. `easy`: easy_accelerations; more than `jolt` times as much is
+// Changes these joints in the frames where `may` is not 0, and less near to others. `easy`: easy_accelerations; more than `jolt` times as much is
 // a jolt. A motion without jolts stays unchanged, bit by bit. A motion that jolts at its beginning starts later, at
 // rest, and catches up. Returns true if the motion has changed.
 bool soften_joints(const Character& character, std::vector<int> joints, double jolt, std::span<const double> easy,

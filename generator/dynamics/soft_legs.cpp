@@ -21,7 +21,8 @@ constexpr int kTimesSmaller = 12;
 constexpr double kJolt = 1.0;  // times the acceleration at ease; the other leg bears the figure meanwhile
 constexpr int kLifts = 3;      // softened and lifted again: a lift has jolts of its own
 
-// By frame: all that carries the leg rests, as long as means reach.
+// By frame: all that carries the leg rests, and has rested for as long as means reach, because a foot may still land at
+// the end of a course.
 std::vector<char> carrier_rests(const Character& character, const Leg& leg, const Motion& motion) {
   std::vector<char> rests(at(motion.frame_count), 1);
   const int wide = static_cast<int>(std::ceil(kWidestMean_s * motion.rate_hz)) + 1;
@@ -36,7 +37,7 @@ std::vector<char> carrier_rests(const Character& character, const Leg& leg, cons
   };
   for (int f = 1; f < motion.frame_count; ++f)
     if (moves(f))
-      std::fill(rests.begin() + std::max(0, f - wide), rests.begin() + std::min(motion.frame_count, f + wide), 0);
+      std::fill(rests.begin() + f - 1, rests.begin() + std::min(motion.frame_count, f + wide), 0);
   return rests;
 }
 

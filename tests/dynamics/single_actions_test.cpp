@@ -56,6 +56,18 @@ TEST(SingleActions, AMechOfTheHeaviestPartsStandsOnEitherOfItsLegs) {
   }
 }
 
+// The leg was softened up to 0.35 s before the hips begin to turn, and jumped by 6 degrees there.
+TEST(SingleActions, ALegThatIsStruckBeforeTheFigureTurnsHasNoJump) {
+  Spec spec;
+  spec.character.name = "mech";
+  spec.dynamics.mode = Mode::tracking;
+  const ActionUse struck = use("hit_reaction", "leg_right", 0, 29, {{"azimuth_deg", -8.0}, {"strength_deg", 41.0}});
+  spec.sequences = {sequence({struck, use("aim", "head", 24, 30, {{"target_m", Vec3(0.0, 1.2, -0.1)}})})};
+  const Result<Stage> stage = build_stage(spec, stock_library());
+  ASSERT_TRUE(stage) << to_line(stage.issue());
+  EXPECT_EQ(broken_in(*stage), "");
+}
+
 // It leaves the ground in the first frame, and its edge touches the ground on the way.
 TEST(SingleActions, AStruckFootIsLiftedOnceFromWhereItStood) {
   const Stage stage = stage_with_mass("mech", blow(25.0, 43.0, 65), {{"leg_left", "mech_leg_reverse"}});
