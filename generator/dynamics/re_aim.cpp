@@ -156,9 +156,9 @@ class Aim {
       if (f < 0 || f >= motion_.frame_count) return;
       const double share = 1.0 - minimum_jerk(static_cast<double>(k) / (reach + 1));
       for (const int j : joints_) {
-        const std::size_t c = at(character_.joint(j).coord);
-        motion_.row(f)[c] += share * (motion_.row(frame)[c] - given_[c]);
-        clamp_to_range(character_.joint(j), &motion_.row(f)[c]);
+        const Joint& joint = character_.joint(j);
+        turn_by(joint, share * turn_between(joint, &given_[at(joint.coord)], coords(frame, joint)), coords(f, joint));
+        clamp_to_range(joint, coords(f, joint));
       }
     }
   }

@@ -68,6 +68,19 @@ TEST(SingleActions, ALegThatIsStruckBeforeTheFigureTurnsHasNoJump) {
   EXPECT_EQ(broken_in(*stage), "");
 }
 
+// The figure sways over one leg, so that the arm is aimed again. Its shoulder turned to the new aim within a frame.
+TEST(SingleActions, AShoulderThatIsAimedAgainTurnsThereLittleByLittle) {
+  Spec spec;
+  spec.character = {"mech", {{"arm_left", "mech_arm_extend"}}, {}};
+  spec.dynamics.mode = Mode::tracking;
+  ActionUse aim = use("aim", "arm_left", 0, 73, {}), reach = use("reach", "leg_left", 0, 30, {});
+  aim.blend_in_frames = reach.blend_in_frames = ActionUse().blend_in_frames;
+  spec.sequences = {sequence({aim, reach})};
+  const Result<Stage> stage = build_stage(spec, stock_library());
+  ASSERT_TRUE(stage) << to_line(stage.issue());
+  EXPECT_EQ(broken_in(*stage), "");
+}
+
 // It leaves the ground in the first frame, and its edge touches the ground on the way.
 TEST(SingleActions, AStruckFootIsLiftedOnceFromWhereItStood) {
   const Stage stage = stage_with_mass("mech", blow(25.0, 43.0, 65), {{"leg_left", "mech_leg_reverse"}});
