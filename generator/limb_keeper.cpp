@@ -364,10 +364,12 @@ void LimbKeeper::note_stuck(const Limb& limb) {
   s_.stuck[at(limb.parts.back())] = s_.shift[at(limb.parts.back())] == Shift::held_off && is_still;
 }
 
-// Returns true for a limb without feet that is on its way back, or that only a blow moves, and that bodies have stopped.
-// Its way may lead past a body with less than the comfortable gap, as when an arm hangs beside a thigh.
-bool LimbKeeper::comes_back_stuck(const Limb& limb) const {
-  return limb.legs.empty() && s_.stuck[at(limb.parts.back())] != 0 && std::ranges::none_of(limb.parts, [&](int p) {
+// Returns true if bodies have stopped a limb without feet on its way back, or while only a blow moves it, until it has
+// room again. Its way may lead past a body with less than the comfortable gap, as when an arm hangs beside a thigh.
+bool LimbKeeper::squeezes_past(const Limb& limb) const {
+  const std::size_t part = at(limb.parts.back());
+  const bool is_stopped = s_.stuck[part] != 0 || s_.squeezes[part] != 0;
+  return limb.legs.empty() && is_stopped && std::ranges::none_of(limb.parts, [&](int p) {
     return s_.stacks[at(p)].overwrite().action >= 0 || s_.stacks[at(p)].ik().action >= 0;
   });
 }
@@ -375,7 +377,7 @@ bool LimbKeeper::comes_back_stuck(const Limb& limb) const {
 void LimbKeeper::keep_clear(const Limb& limb, bool was_lifted) {
   const auto part = at(limb.parts.back());
   char& squeezes = s_.squeezes[part];
-  squeezes = squeezes != 0 || comes_back_stuck(limb);
+  squeezes = squeezes_past(limb);
   const Clearance::LimbState state{was_lifted, is_struck(part) ? Haste::struck : Haste::at_ease,
                                    squeezes != 0 ? kNarrow_m : kComfortable_m};
   const Clearance::Kept kept = s_.clearance.keep(part, s_.past, state, s_.postures.shown, s_.rules.world());

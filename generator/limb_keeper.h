@@ -74,7 +74,7 @@ class LimbKeeper {
   void arrive(const Limb& limb);
   void keep_clear(const Limb& limb, bool was_lifted);
   bool loses_room(const Playback& playback, const Limb& limb);
-  bool comes_back_stuck(const Limb& limb) const;
+  bool squeezes_past(const Limb& limb) const;
   void note_stuck(const Limb& limb);
   void try_again(const Playback& playback, const Limb& limb);
 

@@ -143,7 +143,7 @@ TEST(ShrinkStages, EverythingAroundGoesBackToStock) {
   one_blow.environment.obstacles.pop_back();
   const Spec least = shrunk(one_blow, needs).minimal.spec;
   EXPECT_TRUE(least.sequences.empty());
-  EXPECT_EQ(least.dynamics.mode, Mode::dynamic) << "tracking has nothing to answer a blow with";
+  EXPECT_EQ(least.dynamics.mode, Mode::dynamic) << "in tracking, a figure cannot answer a blow";
   EXPECT_EQ(least.dynamics.impacts[0].impulse_N_s.y, 7.0);
   EXPECT_EQ(least.dynamics.impacts[0].frame, 0);
   EXPECT_TRUE(least.character.attachments.empty());
