@@ -6,8 +6,9 @@
 namespace contort {
 
 void take_back(const Actuation& hold, double share, Actuation& actuation) {
-  for (std::size_t k = 0; k < hold.acceleration.size(); ++k)
-    actuation.acceleration[k] = hold.acceleration[k] + share * (actuation.acceleration[k] - hold.acceleration[k]);
+  for (const auto row : {&Actuation::acceleration, &Actuation::forces, &Actuation::efforts})
+    for (std::size_t k = 0; k < (hold.*row).size(); ++k)
+      (actuation.*row)[k] = (hold.*row)[k] + share * ((actuation.*row)[k] - (hold.*row)[k]);
 }
 
 void EquationOfMotion::begin(const DynamicFigure& of, const FigureState& start) {

@@ -18,7 +18,8 @@ struct Actuation {
   }
 };
 
-// Moves accelerations from those of `hold` towards these, by a fraction in [0, 1].
+// Moves accelerations, forces and efforts from those of `hold` towards these, by a fraction in [0, 1]. Forces depend
+// linearly on accelerations, and soles that can give both can give what lies between.
 void take_back(const Actuation& hold, double share, Actuation& actuation);
 
 // Each term belongs to the state for which it was computed, and the terms are computed in this order. Callers may

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "model/core/index.h"
 
@@ -21,12 +22,14 @@ bool bears_on(std::uint8_t corners, std::size_t corner) { return (corners >> cor
 void draw_back(const Sole& sole, double force_N, std::span<Vec3> points) {
   const Rigid sole_from_link = inverse(sole.link_from_sole);
   for (Vec3& point : points) point = sole_from_link * point;
-  for (const auto& [axis, strength_N_m] : {std::pair(0, sole.tilt_N_m), std::pair(2, sole.flex_N_m)}) {
-    const double middle_m = sole.ankle_m[axis], most_m = kAnkleShare * strength_N_m / force_N;
+  const double toes_m = kAnkleShare * sole.toes_N_m / force_N, heel_m = kAnkleShare * sole.heel_N_m / force_N;
+  const double side_m = kAnkleShare * sole.tilt_N_m / force_N;
+  for (const auto& [axis, behind_m, ahead_m] : {std::tuple(0, side_m, side_m), std::tuple(2, heel_m, toes_m)}) {
+    const double middle_m = sole.ankle_m[axis];
     double low_m = 1e9, high_m = -1e9;
     for (const Vec3& point : points) low_m = std::min(low_m, point[axis]), high_m = std::max(high_m, point[axis]);
-    const double from_m = std::clamp(middle_m - most_m, low_m, high_m);
-    const double to_m = std::clamp(middle_m + most_m, low_m, high_m);
+    const double from_m = std::clamp(middle_m - behind_m, low_m, high_m);
+    const double to_m = std::clamp(middle_m + ahead_m, low_m, high_m);
     for (Vec3& point : points) point[axis] = std::clamp(point[axis], from_m, to_m);
   }
   for (Vec3& point : points) point = sole.link_from_sole * point;

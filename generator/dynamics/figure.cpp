@@ -87,10 +87,15 @@ class FigureBuilder {
         const int j = legs_[i].ankles[at(k)];
         const Joint& ankle = joint(j);
         sole.ankle_dofs.push_back(figure.body.links()[at(j)].dof);
-        const double strength_N_m = std::max(ankle.strength_high, -ankle.strength_low);
+        const bool is_ball = ankle.kind == JointKind::ball;
+        const double high_N_m = ankle.strength_high, low_N_m = -ankle.strength_low;
+        const double either_N_m = std::max(high_N_m, low_N_m);
         const Vec3 axis = sole_from_world * (world_[at(j)].q * ankle.axis);
-        if (std::fabs(axis.x) > 0.7 || ankle.kind == JointKind::ball) sole.flex_N_m = strength_N_m;
-        if (std::fabs(axis.z) > 0.7 || ankle.kind == JointKind::ball) sole.tilt_N_m = strength_N_m;
+        if (is_ball || std::fabs(axis.x) > 0.7) {
+          sole.toes_N_m = is_ball ? either_N_m : axis.x > 0.0 ? high_N_m : low_N_m;
+          sole.heel_N_m = is_ball ? either_N_m : axis.x > 0.0 ? low_N_m : high_N_m;
+        }
+        if (is_ball || std::fabs(axis.z) > 0.7) sole.tilt_N_m = either_N_m;
       }
     }
   }

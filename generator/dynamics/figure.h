@@ -27,7 +27,8 @@ struct Sole {
   int link = 0;
   Rigid link_from_sole;
   Vec3 ankle_m{0.0};                // point below the ankle on the sole's plane, in the sole's frame
-  double flex_N_m = 1e9;            // strength of its hinges about the sole's X, which bear loads ahead or behind
+  double toes_N_m = 1e9;            // strength of its hinges about the sole's X against loads ahead of the ankle,
+  double heel_N_m = 1e9;            // and behind it
   double tilt_N_m = 1e9;            // strength of its hinges about the sole's Z, which bear loads to the side
   std::array<Vec3, 4> corners_m{};  // of the footprint, in the link's frame, counter-clockwise seen from above
   std::vector<int> ankle_dofs;      // degrees of freedom between the leg's tip and the sole

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "generator/dynamics/linear.h"
 #include "generator/dynamics/support_hull.h"
@@ -16,6 +17,14 @@ constexpr double kMomentPrice = 100.0;       // of a squared N m against a squar
 constexpr double kMostMomentPrice = 2000.0;  // where the ankle is weak
 constexpr double kLeastShare = 0.2;          // of the weight that must press on the ground
 constexpr double kLeastLoad = 0.05;          // of an even share of the weight, as which a sole counts at least
+constexpr int kSharings = 12;  // greatest number of passes that bring the soles' forces inside their bearing areas,
+constexpr double kInside = 0.98;                    // to this fraction of their extent,
+constexpr double kSpare = 0.95;                     // and of the strength of their ankles,
+constexpr double kOutside_N_m = 0.1;                // if a moment is this much too large
+constexpr double kStep = 0.1;                       // least fraction of its ease that a sole keeps in a pass
+constexpr double kLeastEase = 1e-3 / kMomentPrice;  // of any sole
+constexpr double kYielding = 0.25;                  // of its firmness that a sole keeps in a pass in which it pulls
+constexpr double kLeastFirmness = 1e-4;             // of a sole that pulls
 
 // Row of the moment e . (n + (o - p) x f) in the root's entries of generalised forces: f in the world, n in its axes.
 SupportEdge edge_between(const Vec3& from_m, const Vec3& to_m, const Placement& root) {
@@ -82,21 +91,25 @@ double balanced_share(const SupportArea& area, std::span<const double> hold, std
   return share;
 }
 
-Vec3 GroundShare::middle_of(const Sole& sole, const Bearing& bearing) {
+// The bearing area: its middle and half its extent, in the sole's frame.
+std::pair<Vec3, Vec3> GroundShare::area_of(const Sole& sole, const Bearing& bearing) {
   points_m_.clear();
   add_bearing_points(sole, bearing, 0.0, points_m_);
-  Vec3 middle(0.0);
-  for (const Vec3& point : points_m_) middle += point / static_cast<double>(points_m_.size());
-  return middle;
+  const Rigid sole_from_link = inverse(sole.link_from_sole);
+  Vec3 middle(0.0), half(0.0);
+  for (Vec3& point : points_m_) {
+    point = sole_from_link * point;
+    middle += point / static_cast<double>(points_m_.size());
+  }
+  for (const Vec3& point : points_m_) half = glm::max(half, glm::abs(point - middle));
+  return {middle, half};
 }
 
-// The ease with which a sole gives moments, world axes: less about the axis about which its ankle is weaker.
-Mat3 GroundShare::moment_ease(const Sole& sole, const DynamicsScratch& dynamics) {
-  const double weaker = std::max(1.0, sole.flex_N_m / std::max(sole.tilt_N_m, 1e-6));
+// The ease with which a sole gives moments about its axes: less about the axis about which its ankle is weaker.
+Vec3 GroundShare::moment_ease(const Sole& sole) {
+  const double weaker = std::max(1.0, std::max(sole.toes_N_m, sole.heel_N_m) / std::max(sole.tilt_N_m, 1e-6));
   const double tilt_price = std::min(kMomentPrice * weaker * weaker, kMostMomentPrice);
-  const Mat3 axes = glm::mat3_cast(sole_place(sole, dynamics).q);
-  return axes * Mat3(1.0 / kMomentPrice, 0.0, 0.0, 0.0, 1.0 / kMomentPrice, 0.0, 0.0, 0.0, 1.0 / tilt_price) *
-         glm::transpose(axes);
+  return {1.0 / kMomentPrice, 1.0 / kMomentPrice, 1.0 / tilt_price};
 }
 
 // Multipliers (moment mu, force phi) with f_i = firm (phi + mu x d_i) and n_i = firm E mu (E: moment_ease) meet sum f =
@@ -109,19 +122,27 @@ void GroundShare::prepare(const DynamicFigure& figure, const Feet& feet, std::sp
   moves_.assign(standing.size() * at(dof_count_), 0);
   for (const int s : standing) {
     const Sole& sole = figure.soles[at(s)];
-    const Placement& link = dynamics.world[at(sole.link)];
-    const Vec3 d = link.origin_m + link.rotation * middle_of(sole, feet.bearing(s)) - dynamics.world[0].origin_m;
+    const auto [middle_m, half_m] = area_of(sole, feet.bearing(s));
+    const Rigid place = sole_place(sole, dynamics);
     for (const int dof : sole.chain_dofs) moves_[feet_.size() * at(dof_count_) + at(dof)] = 1;
-    feet_.push_back({s, d, firmness[at(s)], moment_ease(sole, dynamics)});
+    feet_.push_back({&sole, place * middle_m - dynamics.world[0].origin_m, middle_m, half_m, glm::mat3_cast(place.q),
+                     firmness[at(s)], moment_ease(sole)});
   }
+  begin();
+}
+
+void GroundShare::begin() {
+  for (Foot& foot : feet_) foot.firmness = foot.own_firmness, foot.ease = foot.own_ease;
   factorise();
 }
 
 void GroundShare::factorise() {
   factors_.fill(0.0);
   const auto entry = [&](int i, int j) -> double& { return factors_[at(6 * i + j)]; };
-  for (const Foot& foot : feet_) {
-    const Vec3 d = foot.center_m, e = foot.firmness * d;
+  for (Foot& foot : feet_) {
+    const Vec3 d = foot.center_m, e = foot.firmness * d, ease = foot.ease;
+    foot.moment_ease =
+        foot.axes * Mat3(ease.x, 0.0, 0.0, 0.0, ease.y, 0.0, 0.0, 0.0, ease.z) * glm::transpose(foot.axes);
     for (int i = 0; i < 3; ++i) {
       entry(3 + i, 3 + i) += foot.firmness;
       for (int j = 0; j < 3; ++j)
@@ -137,13 +158,50 @@ void GroundShare::factorise() {
 // A sole on which nothing presses can give no moment either.
 void GroundShare::follow_load(const DynamicsScratch& dynamics, std::span<const double> forces) {
   if (feet_.size() < 2) return;
+  begin();
   const SpatialForce net = ground_force(dynamics, forces), common = multipliers(net);
   if (!(net.force.y > 0.0)) return;
   const double even_N = net.force.y / static_cast<double>(feet_.size());
   std::array<double, kMaxLegs> loads{};
   for (std::size_t i = 0; i < feet_.size(); ++i) loads[i] = share_of(i, common).force.y / even_N;
-  for (std::size_t i = 0; i < feet_.size(); ++i) feet_[i].moment_ease *= std::clamp(loads[i], kLeastLoad, 1.0);
+  for (std::size_t i = 0; i < feet_.size(); ++i) feet_[i].ease *= std::clamp(loads[i], kLeastLoad, 1.0);
   factorise();
+  for (int pass = 0; pass < kSharings && press_inside(net); ++pass) factorise();
+}
+
+// How far from the middle of its bearing area, in the sole's axes, a force of this size may act: inside that area, and
+// where the ankle is strong enough for it.
+std::pair<Vec3, Vec3> GroundShare::room_of(const Foot& foot, double force_N) {
+  const Sole& sole = *foot.sole;
+  const Vec3 ankle = sole.ankle_m - foot.middle_m;
+  const Vec3 behind = kSpare / force_N * Vec3(sole.tilt_N_m, 0.0, sole.heel_N_m);
+  const Vec3 ahead = kSpare / force_N * Vec3(sole.tilt_N_m, 0.0, sole.toes_N_m);
+  return {glm::min(glm::max(-foot.half_m, ankle - behind), 0.0), glm::max(glm::min(foot.half_m, ankle + ahead), 0.0)};
+}
+
+// Makes soles that would have to pull less firm, and lets those whose force would act outside of their room give less
+// of that moment. Returns whether there are any.
+bool GroundShare::press_inside(const SpatialForce& net) {
+  const SpatialForce common = multipliers(net);
+  bool any = false;
+  for (std::size_t i = 0; i < feet_.size(); ++i) {
+    Foot& foot = feet_[i];
+    const SpatialForce own = share_of(i, common);
+    const Vec3 force = glm::transpose(foot.axes) * own.force;
+    const Vec3 moment = glm::transpose(foot.axes) * (own.moment - glm::cross(foot.center_m, own.force));
+    if (force.y < 0.0 && foot.firmness > kLeastFirmness) foot.firmness *= kYielding, any = true;
+    const double pressing_N = std::max(force.y, 1e-6);
+    const auto [low_m, high_m] = room_of(foot, pressing_N);
+    for (const auto& [axis, along, moment_N_m] : {std::tuple(0, 2, -moment.x), std::tuple(2, 0, moment.z)}) {
+      const double most = pressing_N * (moment_N_m > 0.0 ? high_m[along] : -low_m[along]);
+      const double given = std::abs(moment_N_m);
+      if (given <= most + kOutside_N_m || foot.ease[axis] <= kLeastEase) continue;
+      const double step = kInside * most / given;
+      foot.ease[axis] = std::max(foot.ease[axis] * std::max(step * step, kStep), kLeastEase);
+      any = true;
+    }
+  }
+  return any;
 }
 
 SpatialForce GroundShare::multipliers(const SpatialForce& net) const {
@@ -164,14 +222,14 @@ SpatialForce GroundShare::share_of(std::size_t standing, const SpatialForce& m) 
   return {firm * (feet_[standing].moment_ease * m.moment.narrow()) + glm::cross(d, force), force};
 }
 
-void GroundShare::efforts(const DynamicFigure& figure, const DynamicsScratch& dynamics, std::span<const double> forces,
+void GroundShare::efforts(const DynamicsScratch& dynamics, std::span<const double> forces,
                           std::span<double> out) const {
   std::copy(forces.begin(), forces.end(), out.begin());
   std::fill_n(out.begin(), kRootDofs, 0.0);
   const SpatialForce common = multipliers(dynamics, forces);
   for (std::size_t i = 0; i < feet_.size(); ++i) {
     const SpatialForce own = share_of(i, common);
-    for (const int dof : figure.soles[at(feet_[i].sole)].chain_dofs)
+    for (const int dof : feet_[i].sole->chain_dofs)
       out[at(dof)] -= dot(dynamics.freedoms[at(dof)], own);
   }
 }

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "generator/dynamics/dynamics.h"
@@ -65,13 +66,13 @@ class GroundShare {
   void prepare(const DynamicFigure& figure, const Feet& feet, std::span<const double> firmness,
                const DynamicsScratch& dynamics);
 
-  // Makes soles that bear less than an even share of this force less firm, in proportion: a sole on which nothing
-  // presses can give no moment.
+  // Fits the division to these forces: soles that bear less than an even share give less moment, in proportion, and as
+  // far as the whole support area allows, each sole pushes with a force that acts inside its own bearing area and that
+  // its ankle is strong enough for. Each pass divides again with other weights (iteratively reweighted least squares).
   void follow_load(const DynamicsScratch& dynamics, std::span<const double> forces);
 
   // Joint efforts for generalised forces: these forces minus those that the soles transmit; 0 for the root.
-  void efforts(const DynamicFigure& figure, const DynamicsScratch& dynamics, std::span<const double> forces,
-               std::span<double> out) const;
+  void efforts(const DynamicsScratch& dynamics, std::span<const double> forces, std::span<double> out) const;
   // The same for one degree of freedom. The multipliers of these forces are cached for further calls.
   double effort(const DynamicsScratch& dynamics, std::span<const double> forces, int dof) const {
     return effort(dynamics, forces, multipliers(dynamics, forces), dof);
@@ -87,13 +88,22 @@ class GroundShare {
 
  private:
   struct Foot {
-    int sole = 0;
-    Vec3 center_m{0.0};  // from the root's origin
-    double firmness = 1.0;
-    Mat3 moment_ease{0.0};
+    const Sole* sole = nullptr;
+    Vec3 center_m{0.0};  // of its bearing area, from the root's origin
+    Vec3 middle_m{0.0};  // the same in the sole's frame
+    Vec3 half_m{0.0};    // half of that area's extent, in the sole's axes
+    Mat3 axes{1.0};      // the sole's, in the world
+    double own_firmness = 1.0;
+    Vec3 own_ease{0.0};     // with which it gives moments about its axes
+    double firmness = 1.0;  // and ease for the present forces
+    Vec3 ease{0.0};
+    Mat3 moment_ease{0.0};  // the ease in the world's axes
   };
-  static Mat3 moment_ease(const Sole& sole, const DynamicsScratch& dynamics);
-  Vec3 middle_of(const Sole& sole, const Bearing& bearing);  // middle of its bearing area, in its link's frame
+  void begin();
+  static Vec3 moment_ease(const Sole& sole);
+  std::pair<Vec3, Vec3> area_of(const Sole& sole, const Bearing& bearing);
+  static std::pair<Vec3, Vec3> room_of(const Foot& foot, double force_N);
+  bool press_inside(const SpatialForce& net);
   void factorise();
   SpatialForce multipliers(const SpatialForce& net) const;
   SpatialForce share_of(std::size_t standing, const SpatialForce& multipliers) const;

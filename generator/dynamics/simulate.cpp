@@ -155,6 +155,7 @@ class Simulation {
     }
     inverse_dynamics(body_, state_.velocity, acceleration, kGravity_m_s2, s_.equation.dynamics, s_.actuation.forces);
     s_.standing.find_ground(s_.equation, s_.contacts, s_.actuation);
+    s_.standing.find_efforts(s_.equation, s_.actuation);
     if (!s_.contacts.feet().none()) s_.record.balance(s_.standing.balance(s_.equation, s_.actuation.forces));
   }
 

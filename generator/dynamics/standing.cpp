@@ -16,6 +16,7 @@ constexpr double kYields = 1e3;             // against others' 1: an arm's joint
 constexpr double kStandingPressure = 0.25;  // of the weight, on feet that stand
 constexpr int kAttempts = 6;                // to spare joints,
 constexpr int kAskedOfSwing = 2;            // the first of them by feet in the air
+constexpr double kMostOfLoad = 0.7;         // of the ground's force, on a sole that decides where the figure stands
 constexpr double kLost_m = 0.3;             // a capture point this far outside is not brought back by standing feet
 constexpr double kCatches_m = 0.02;         // but one this near is by feet that have just landed
 constexpr double kTips_m = 0.03;            // the zero moment point this far outside cannot be brought back
@@ -37,13 +38,11 @@ void Standing::let_go() {
   outside_s_ = 0.0;
 }
 
-void Standing::find_ground(const EquationOfMotion& equation, const FootContacts& contacts, Actuation& actuation) {
+void Standing::find_ground(const EquationOfMotion& equation, const FootContacts& contacts,
+                           const Actuation& actuation) {
   find_support_area(*equation.figure, contacts.feet(), std::max(actuation.forces[1], 0.5 * equation.weight_N()),
                     equation.dynamics, area_);
   ground_.prepare(*equation.figure, contacts.feet(), contacts.firmness(), equation.dynamics);
-  // While a blow tips the figure, control changes the load on each sole within the tick.
-  if (!is_disturbed_) ground_.follow_load(equation.dynamics, actuation.forces);
-  ground_.efforts(*equation.figure, equation.dynamics, actuation.forces, actuation.efforts);
 }
 
 Balance Standing::balance(const EquationOfMotion& equation, std::span<const double> forces) const {
@@ -95,7 +94,12 @@ void Standing::follow(EquationOfMotion& equation, FootContacts& contacts, std::s
   }
   find_rows(equation, contacts, actuation);
   meet(equation, contacts, actuation);
-  ground_.efforts(*equation.figure, equation.dynamics, actuation.forces, actuation.efforts);
+  find_efforts(equation, actuation);
+}
+
+void Standing::find_efforts(const EquationOfMotion& equation, Actuation& actuation) {
+  ground_.follow_load(equation.dynamics, actuation.forces);
+  ground_.efforts(equation.dynamics, actuation.forces, actuation.efforts);
 }
 
 // The base's accelerations with these conditions; one more where the ground would press too little for the feet to
@@ -135,8 +139,21 @@ bool Standing::ask_less_of_swing(FootContacts& contacts, double share, const Act
   return any;
 }
 
+// The sole that bears most of the weight if this is one of its ankle's degrees of freedom, or -1.
+int Standing::carried_by(const EquationOfMotion& equation, const FootContacts& contacts, const Actuation& actuation,
+                         int dof) const {
+  const SpatialForce net = ground_force(equation.dynamics, actuation.forces);
+  for (std::size_t i = 0; i < contacts.feet().soles().size(); ++i) {
+    const int sole = contacts.feet().soles()[i];
+    const std::vector<int>& ankle = equation.figure->soles[at(sole)].ankle_dofs;
+    if (std::ranges::find(ankle, dof) == ankle.end()) continue;
+    return contacts.feet().soles().size() == 1 || ground_.share(i, net).force.y > kMostOfLoad * net.force.y ? sole : -1;
+  }
+  return -1;
+}
+
 // Takes something from the joint that is overloaded most: a foot in the air comes later, and the zero moment point of a
-// foot that stands alone comes nearer to its ankle; others are spared by all that moves. Answers whether there was
+// foot that bears most of the weight comes nearer to its ankle; others are spared by all that moves. Answers whether there was
 // anything to do.
 bool Standing::relieve(const EquationOfMotion& equation, FootContacts& contacts, const Actuation& actuation) {
   const DynamicFigure& figure = *equation.figure;
@@ -148,16 +165,14 @@ bool Standing::relieve(const EquationOfMotion& equation, FootContacts& contacts,
   const bool carries =
       contacts.led_by_dof()[at(worst.dof)] != 0 || std::ranges::find(figure.watched, worst.dof) != figure.watched.end();
   if (carries && ++asked_ <= kAskedOfSwing && ask_less_of_swing(contacts, 0.8 / worst.share, actuation)) return true;
-  if (contacts.feet().soles().size() == 1) {
-    const Sole& sole = figure.soles[at(contacts.feet().soles()[0])];
-    if (std::ranges::find(sole.ankle_dofs, worst.dof) != sole.ankle_dofs.end()) {
-      const Vec3 ankle_m = sole_place(sole, equation.dynamics) * sole.ankle_m;
-      const Vec3 now = has_zmp_ ? zmp_m_ : balance(equation, actuation.forces).zmp_m;
-      corners_m_ = area_.corners_m;
-      zmp_m_ = nearest_inside(corners_m_, kEdge_m, ankle_m + (0.97 / worst.share) * (now - ankle_m), hull_);
-      has_zmp_ = true;
-      return true;
-    }
+  if (const int sole = carried_by(equation, contacts, actuation, worst.dof); sole >= 0) {
+    const Sole& foot = figure.soles[at(sole)];
+    const Vec3 ankle_m = sole_place(foot, equation.dynamics) * foot.ankle_m;
+    const Vec3 now = has_zmp_ ? zmp_m_ : balance(equation, actuation.forces).zmp_m;
+    corners_m_ = area_.corners_m;
+    zmp_m_ = nearest_inside(corners_m_, kEdge_m, ankle_m + (0.97 / worst.share) * (now - ankle_m), hull_);
+    has_zmp_ = true;
+    return true;
   }
   if (std::ranges::any_of(spared_, [&](const Spared& spared) { return spared.dof == worst.dof; })) return false;
   const std::vector<double>& limits =
@@ -174,10 +189,8 @@ void Standing::hold_back(EquationOfMotion& equation, FootContacts& contacts, Rec
   contacts.keep(hold_.acceleration);
   equation.find_forces(hold_.acceleration, hold_.forces);
   if (!rows_.empty()) ground_control_.meet(equation, ease_, rows_, contacts.support(), hold_);
-  ground_.efforts(figure, equation.dynamics, hold_.forces, hold_.efforts);
+  find_efforts(equation, hold_);
   take_back(hold_, affordable_share(figure, hold_.efforts, actuation.efforts), actuation);
-  equation.find_forces(actuation.acceleration, actuation.forces);
-  ground_.efforts(figure, equation.dynamics, actuation.forces, actuation.efforts);
   if (!exceeds_strength(figure, actuation.efforts)) return;
   record.overpowered();
   record.efforts(actuation.efforts);

@@ -27,8 +27,10 @@ class Standing {
   // The figure has let go of the ground.
   void let_go();
 
-  // Finds the support area at the placed pose, and the efforts for the actuation's forces.
-  void find_ground(const EquationOfMotion& equation, const FootContacts& contacts, Actuation& actuation);
+  // Finds the support area at the placed pose.
+  void find_ground(const EquationOfMotion& equation, const FootContacts& contacts, const Actuation& actuation);
+  // The efforts for the actuation's forces; needs find_ground.
+  void find_efforts(const EquationOfMotion& equation, Actuation& actuation);
   Balance balance(const EquationOfMotion& equation, std::span<const double> forces) const;
 
   // Changes the wanted accelerations so that the figure stands, with their forces and efforts; needs find_mass. Returns
@@ -56,6 +58,8 @@ class Standing {
   void find_rows(const EquationOfMotion& equation, const FootContacts& contacts, const Actuation& actuation);
   double lost_m(const EquationOfMotion& equation, const FootContacts& contacts);
   bool ask_less_of_swing(FootContacts& contacts, double share, const Actuation& actuation);
+  int carried_by(const EquationOfMotion& equation, const FootContacts& contacts, const Actuation& actuation,
+                 int dof) const;
   bool relieve(const EquationOfMotion& equation, FootContacts& contacts, const Actuation& actuation);
 
   double tick_s_ = 0.0;

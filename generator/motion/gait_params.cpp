@@ -17,7 +17,7 @@ constexpr double kSidestep = 0.25;  // the longest stride sideways, of a leg
 // The part of a heading to which the body turns; over what is left it goes sideways or backward. Sidesteps are slow, or
 // feet would cross; people walk backward at about half of their speed.
 double turn_for(std::span<const Leg> legs, double speed_m_s, double heading_rad) {
-  constexpr double kSideways = 0.13, kBackward = 0.33;  // the square roots of Froude numbers: 0.4 and 1 m/s for people
+  constexpr double kSideways = 0.13, kBackward = 0.29;  // the square roots of Froude numbers: 0.4 and 0.85 m/s for people
   constexpr double kBehind_rad = 0.75 * kPi;
   const double relative = root_of_froude(legs, speed_m_s);
   if (relative <= kSideways) return 0.0;
@@ -167,9 +167,12 @@ GaitParams run_on_two(std::span<const Leg> legs, double speed_m_s, double roll_s
 // 5 m/s.
 
 // Steps are shorter and quicker, because a leg that is far from the hips needs much effort, and legs swing for longer.
-// A heel is lifted when the other foot has landed: an ankle is too weak to carry all of the weight on the toes.
+// A heel is lifted when the other foot has landed: an ankle is too weak to carry all of the weight on the toes. Backward,
+// on flat feet, legs swing for still longer, or the hips of human would need a fifth more than their strength.
 void spare_walker(GaitParams& params) {
   params.cycle_s *= 0.93, params.duty -= 0.06, params.lift_m *= 0.8;
+  const double backward = std::max(0.0, -det::cos(params.heading_rad));
+  params.cycle_s *= 1.0 + 0.08 * backward, params.duty -= 0.05 * backward;
   params.heel_up_rad *= 0.7, params.roll.heel_rises = std::max(params.roll.heel_rises, 0.82);
   params.rise = std::max(params.rise, 0.52);
   params.turn_of_cycle_rad *= 0.6;

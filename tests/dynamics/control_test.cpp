@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "generator/dynamics/feet.h"
@@ -104,11 +105,78 @@ TEST(Ground, SharesOfTheSolesAddUpAndBalanceTheRoot) {
   }
 }
 
+// The moment that a sole gives beyond what its footprint allows, N m; infinite if it pulls with more than 1 N.
+double moment_too_large_N_m(const Tick& tick, std::size_t i, const SpatialForce& share) {
+  const Sole& sole = tick.figure.soles[i];
+  const Rigid place = sole_place(sole, tick.dynamics), sole_from_link = inverse(sole.link_from_sole);
+  Vec3 middle(0.0), half(0.0);
+  for (const Vec3& corner : sole.corners_m) middle += sole_from_link * corner / 4.0;
+  for (const Vec3& corner : sole.corners_m) half = glm::max(half, glm::abs(sole_from_link * corner - middle));
+  const Vec3 from_root_m = place * middle - tick.dynamics.world[0].origin_m;
+  const Vec3 force = glm::conjugate(place.q) * share.force;
+  const Vec3 moment = glm::conjugate(place.q) * (share.moment - glm::cross(from_root_m, share.force));
+  if (force.y < -1.0) return std::numeric_limits<double>::infinity();
+  const double pressing_N = std::max(force.y, 0.0);
+  return std::max(std::abs(moment.x) - pressing_N * half.z, std::abs(moment.z) - pressing_N * half.x);
+}
+
+// Moves the net force so that the zero moment point is anywhere in the support area: on a sole's heel, or below one
+// sole alone.
+TEST(Ground, EachSolePushesInsideItsOwnFootprint) {
+  std::mt19937_64 random(5);
+  int outside = 0, tried = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Tick tick(seed);
+    for (Sole& sole : tick.figure.soles) sole.toes_N_m = sole.heel_N_m = sole.tilt_N_m = 1e9;
+    for (int i = 0; i < 20; ++i) {
+      std::vector<double> forces = tick.forces;
+      for (int k = 3; k < kRootDofs; ++k) forces[static_cast<std::size_t>(k)] += fixtures::between(random, -80.0, 80.0);
+      if (balance_of(tick.area, tick.dynamics, forces, 700.0).margin_m < 0.01) continue;
+      const std::vector<double> firm{1.0, fixtures::between(random, 0.1, 1.0)};
+      tick.ground.prepare(tick.figure, tick.feet, firm, tick.dynamics);
+      const SpatialForce net = ground_force(tick.dynamics, forces);
+      for (std::size_t s = 0; s < 2; ++s) outside += moment_too_large_N_m(tick, s, tick.ground.share(s, net)) > 1.0;
+      tick.ground.follow_load(tick.dynamics, forces);
+      SpatialForce sum;
+      for (std::size_t s = 0; s < 2; ++s) {
+        const SpatialForce share = tick.ground.share(s, net);
+        sum += share;
+        EXPECT_LT(moment_too_large_N_m(tick, s, share), 0.5) << "seed " << seed << ", force " << i << ", sole " << s;
+      }
+      EXPECT_LT(length(Vec3(sum.moment - net.moment)), 1e-6 * (1 + length(Vec3(net.moment))));
+      ++tried;
+    }
+  }
+  EXPECT_GT(tried, 100);
+  EXPECT_GT(outside, 20);  // before the division is fitted to the forces
+}
+
+TEST(Ground, AWeakAnkleLeavesWhatIsTooMuchForItToTheOther) {
+  Tick tick(3);
+  const auto prepare = [&] {
+    tick.ground.prepare(tick.figure, tick.feet, std::vector<double>(2, 1.0), tick.dynamics);
+    tick.ground.follow_load(tick.dynamics, tick.forces);
+  };
+  const auto flex = [&](std::size_t i) {
+    double most = 0.0;
+    for (const int dof : tick.figure.soles[i].ankle_dofs) most = std::max(most, std::abs(tick.effort(dof)));
+    return most;
+  };
+  tick.forces[3] -= 60.0;  // the zero moment point comes nearer to the toes
+  prepare();
+  const double left = flex(0), right = flex(1);
+  ASSERT_GT(left, 30.0);
+  tick.figure.soles[0].toes_N_m = tick.figure.soles[0].heel_N_m = 0.7 * left;
+  prepare();
+  EXPECT_LT(flex(0), 0.75 * left);
+  EXPECT_GT(flex(1), right);
+}
+
 // Efforts and the soles' forces fed back into the equation of motion give the accelerations that they were found for.
 TEST(Ground, EffortsAndSharesMoveTheFigureAsItWasAsked) {
   Tick tick(7);
   std::vector<double> push(tick.size());
-  tick.ground.efforts(tick.figure, tick.dynamics, tick.forces, push);
+  tick.ground.efforts(tick.dynamics, tick.forces, push);
   const SpatialForce net = ground_force(tick.dynamics, tick.forces);
   for (std::size_t i = 0; i < 2; ++i) {
     const SpatialForce share = tick.ground.share(i, net);

@@ -80,14 +80,14 @@ TEST(GroundRows, InFlightTheGroundGivesNothing) {
 TEST(GroundRows, PressureIsMetExactlyAndAnEffortSoftly) {
   Leaning human;
   std::vector<double> zeros(human.equation.size(), 0.0), efforts(human.equation.size());
-  human.share.efforts(human.figure, human.equation.dynamics, human.actuation.forces, efforts);
+  human.share.efforts(human.equation.dynamics, human.actuation.forces, efforts);
   const int dof = human.figure.body.links()[1].dof;
   const double before = efforts[static_cast<std::size_t>(dof)], wanted = 0.5 * before;
   add_pressure_row(0.8 * human.equation.weight_N(), human.rows);
   add_effort_row(human.share, human.equation.dynamics, dof, wanted, zeros, human.rows);
   human.control.meet(human.equation, human.contacts.ease(), human.rows, human.contacts.support(), human.actuation);
   EXPECT_NEAR(human.actuation.forces[1], 0.8 * human.equation.weight_N(), 1e-6);
-  human.share.efforts(human.figure, human.equation.dynamics, human.actuation.forces, efforts);
+  human.share.efforts(human.equation.dynamics, human.actuation.forces, efforts);
   const double after = efforts[static_cast<std::size_t>(dof)];
   EXPECT_LT(std::fabs(after - wanted), 0.5 * std::fabs(before - wanted));
   for (const double zero : zeros) EXPECT_EQ(zero, 0.0);
