@@ -4,12 +4,17 @@
 
 #include "fuzz/raw.h"
 #include "model/core/detmath.h"
+#include "model/core/index.h"
+#include "model/motion/kinematics.h"
 
 namespace contort {
 
 namespace {
 
 constexpr double kHeaviestLoad = 0.25;    // fraction of the figure's mass
+constexpr double kLightLoad = 0.05;       // the same for the mode tracking, which does not answer a load
+constexpr double kBearable = 0.5;         // fraction of a joint's strength that a load may need
+constexpr double kGravity_m_s2 = 9.81;
 constexpr double kHardestBlow_m_s = 1.0;  // impulse per kilogram; a push from which a person recovers is 0.1
 constexpr double kMostInSpecs = 10000.0;  // kg, N s: greatest values in specs (spec_fields.h)
 constexpr int kLastBlow = 90;             // frame
@@ -25,13 +30,33 @@ double rounded(double value, double step) { return step * std::round(value / ste
 // Uniform in the square root of the magnitude, so half of the loads and blows are below a quarter of the greatest.
 double drawn_up_to(double most, int raw) { return most * fraction(raw) * fraction(raw); }
 
-LoadDesc compose_load(const int* raw, const Character& character) {
+// The greatest mass at a socket whose weight, in whatever direction it pulls, the joints that carry it hold at rest.
+double bearable_kg(const Character& character, const Socket& socket) {
+  std::vector<Rigid> world(character.joints().size());
+  forward_kinematics(character, character.rest_root(), character.rest_coords(), world);
+  const Vec3 place_m = world[at(socket.joint)] * socket.joint_from_socket.p_m;
+  double most_kg = kMostInSpecs;
+  for (int j = socket.joint; j > 0; j = character.joint(j).parent) {
+    const Joint& joint = character.joint(j);
+    const Vec3 arm_m = place_m - world[at(j)].p_m;
+    const double strength = kBearable * std::min(joint.strength_high, -joint.strength_low);
+    double arm = length(arm_m);
+    if (joint.kind == JointKind::hinge) arm = length(glm::cross(world[at(j)].q * joint.axis, arm_m));
+    if (joint.kind == JointKind::prismatic) arm = 1.0;  // its strength is a force
+    if (strength > 0.0 && arm > 0.0) most_kg = std::min(most_kg, strength / (kGravity_m_s2 * arm));
+  }
+  return most_kg;
+}
+
+LoadDesc compose_load(const int* raw, const Profile& profile, Mode mode, const Character& character) {
   const Socket& socket = character.sockets()[pick(raw[0], character.sockets().size())];
   const std::size_t slash = socket.name.find('/');
   LoadDesc load;
   load.slot = socket.name.substr(0, slash);
   load.socket = socket.name.substr(slash + 1);
-  const double heaviest_kg = std::min(kHeaviestLoad * mass_kg(character), kMostInSpecs);
+  const bool is_light = mode == Mode::tracking && !profile.wild_loads;
+  double heaviest_kg = std::min((is_light ? kLightLoad : kHeaviestLoad) * mass_kg(character), kMostInSpecs);
+  if (!profile.wild_loads) heaviest_kg = std::min(heaviest_kg, bearable_kg(character, socket));
   load.mass_kg = std::max(0.5, rounded(drawn_up_to(heaviest_kg, raw[1]), 0.5));
   return load;
 }
@@ -57,7 +82,7 @@ DynamicsDesc compose_dynamics(const std::array<int, kRawDynamics>& raw, const Fe
   if (!happens(raw[0], profile.tracking + profile.dynamic)) return dynamics;
   dynamics.mode = happens(raw[0], profile.tracking) ? Mode::tracking : Mode::dynamic;
   for (std::size_t i = 0; i < pick(raw[kLoadCount], 3) && !character.sockets().empty(); ++i) {
-    LoadDesc load = compose_load(&raw[3 + 2 * i], character);
+    LoadDesc load = compose_load(&raw[3 + 2 * i], profile, dynamics.mode, character);
     if (!load.slot.starts_with("object:")) dynamics.loads.push_back(std::move(load));
   }
   // The mode tracking has no strength or balance to answer a blow.

@@ -63,6 +63,8 @@ void fields(V& v, const Profile*) {
   v.field("wild_poses", &Profile::wild_poses, {},
           "Whether poses are drawn for legs and feet, and poses that put bodies into each other, the ground or a "
           "wall.");
+  v.field("wild_loads", &Profile::wild_loads, {},
+          "Whether loads are drawn that are too heavy for the joints that carry them, or for the mode tracking.");
   v.field("range", &Profile::range, {.low = 0.01, .high = 1},
           "Poses are drawn from this middle share of every joint's range.");
   v.field("rules", &Profile::rules, {.max_count = 1000}, "Rules that narrow the draws of some actions and slots.");

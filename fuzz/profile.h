@@ -50,6 +50,7 @@ struct Profile {
   int longest_frames = 90;        // longest length of an action
   bool wild_poses = false;        // also draws poses of parts that stand on the ground, and poses in which bodies
                                   // collide
+  bool wild_loads = false;        // also draws loads that are too heavy for the joints that carry them
   double range = 1.0;             // the middle fraction of every joint's range from which poses are drawn, (0, 1]
   std::vector<DrawRule> rules{};
   bool staged = true;             // draws single actions, then pairs and crowds of clean ones (fuzz/stages.h); false:

@@ -16,6 +16,7 @@ namespace {
 constexpr double kRecovers_s = 1.5;  // after an impact
 constexpr double kNearBody_m = 0.1;  // bodies of the figure that are nearer to each other may touch soon
 constexpr double kBodiesAhead_s = 0.1;
+constexpr double kUnfelt = 0.05;    // of a figure's mass, below which it carries loads without leaving its target for them
 constexpr double kSlips_m_s = 0.5;  // a sole that an impact makes faster than this does not stand any more
 
 class Simulation {
@@ -33,7 +34,8 @@ class Simulation {
         state_(scratch.equation.state),
         motion_(motion),
         target_(setup.figure.body, motion),
-        tick_s_(1.0 / (motion.rate_hz * setup.ticks_per_frame)) {
+        tick_s_(1.0 / (motion.rate_hz * setup.ticks_per_frame)),
+        feels_load_(feels_loads(setup.figure)) {
     target_.share_knots(closed_chain(setup.figure));
   }
 
@@ -72,6 +74,13 @@ class Simulation {
   // Returns true if something acts from outside, or did a short while ago.
   bool is_disturbed() const { return !figure_.loads.empty() || is_struck(); }
   bool is_struck() const { return struck_frame_ >= 0 && frame_ - struck_frame_ < kRecovers_s * motion_.rate_hz; }
+
+  // Returns true if the loads weigh more than a small fraction of the figure.
+  static bool feels_loads(const DynamicFigure& figure) {
+    double loads_kg = 0.0;
+    for (const Load& load : figure.loads) loads_kg += load.mass_kg;
+    return loads_kg > kUnfelt * (figure.body.mass_kg() - loads_kg);
+  }
 
   bool leg_overbends() const {
     const auto count = at(motion_.coord_count);
@@ -112,8 +121,8 @@ class Simulation {
     s_.equation.place();
     const double frame = frame_ + static_cast<double>(index) / setup_.ticks_per_frame;
     const bool returns_softly = is_struck() && !s_.loose.is_loose(), is_planted = s_.contacts.is_planted();
-    // With a load, a figure may leave its target to relieve its joints, but not while it steps.
-    const bool is_exact = !is_disturbed() || (!is_struck() && !is_planted);
+    // With a load that it feels, a figure may leave its target to relieve its joints, but not while it steps.
+    const bool is_exact = !is_struck() && (!feels_load_ || !is_planted);
     track(body_, target_, frame, tick_s_, {!is_planted, returns_softly, is_exact}, state_, track_, s_.tracked);
     frame_time_ = frame;
     s_.contacts.follow_plan(frame, s_.equation.dynamics);
@@ -237,6 +246,7 @@ class Simulation {
   Motion& motion_;
   TargetMotion target_;
   double tick_s_;
+  bool feels_load_;
   TrackScratch track_;
   double frame_time_ = 0.0;
   int struck_frame_ = -1;  // the last blow's; -1: none yet

@@ -81,6 +81,21 @@ TEST(SingleActions, AShoulderThatIsAimedAgainTurnsThereLittleByLittle) {
   EXPECT_EQ(broken_in(*stage), "");
 }
 
+// A load of 5 kg on a figure of 420 kg switched to another way of tracking, which jolts: the zero moment point went 5 cm
+// out of the support area.
+TEST(SingleActions, ALoadThatAFigureHardlyFeelsDoesNotChangeHowItFollows) {
+  Spec spec;
+  spec.character.name = "mech";
+  spec.dynamics.mode = Mode::tracking;
+  spec.dynamics.loads = {LoadDesc{.slot = "torso", .socket = "back"}};
+  ActionUse struck = use("hit_reaction", "torso", 0, ActionUse().duration_frames, {});
+  struck.blend_in_frames = ActionUse().blend_in_frames;
+  spec.sequences = {sequence({struck})};
+  const Result<Stage> stage = build_stage(spec, stock_library());
+  ASSERT_TRUE(stage) << to_line(stage.issue());
+  EXPECT_EQ(broken_in(*stage), "");
+}
+
 // It leaves the ground in the first frame, and its edge touches the ground on the way.
 TEST(SingleActions, AStruckFootIsLiftedOnceFromWhereItStood) {
   const Stage stage = stage_with_mass("mech", blow(25.0, 43.0, 65), {{"leg_left", "mech_leg_reverse"}});

@@ -15,6 +15,8 @@
 #include "generator/actions/action.h"
 #include "generator/generate.h"
 #include "generator/stage.h"
+#include "model/core/index.h"
+#include "model/motion/kinematics.h"
 #include "tests/checks/small_character.h"
 #include "tests/stage_evaluator.h"
 
@@ -46,6 +48,54 @@ TEST(DrawSlow, TwentyThousandDrawsAllBuildAndReadBack) {
     ASSERT_TRUE(read) << to_line(read.issue());
     ASSERT_EQ(*read, spec) << i;
   }
+}
+
+struct Heaviest {
+  double of_figure = 0.0;    // the heaviest load as a fraction of the figure's mass
+  double of_strength = 0.0;  // the greatest fraction of a joint's strength that the weight of a load may need at rest
+};
+
+Heaviest heaviest_loads(const DrawConfig& config, Mode mode) {
+  Heaviest out;
+  for (int i = 0; i < 1500; ++i) {
+    const Spec spec = draw_spec(config, stock_generator(), 4, i);
+    if (spec.dynamics.loads.empty() || spec.dynamics.mode != mode) continue;
+    const Stage stage = *build_stage(spec, stock_library());
+    const Character& character = *stage.character;
+    double mass_kg = 0.0;
+    for (const Joint& joint : character.joints()) mass_kg += joint.mass_kg;
+    std::vector<Rigid> world(character.joints().size());
+    forward_kinematics(character, character.rest_root(), character.rest_coords(), world);
+    for (const LoadDesc& load : spec.dynamics.loads) {
+      out.of_figure = std::max(out.of_figure, load.mass_kg / mass_kg);
+      const Socket& socket = character.sockets()[at(character.find_socket(load.slot + "/" + load.socket))];
+      const Vec3 place_m = world[at(socket.joint)] * socket.joint_from_socket.p_m;
+      for (int j = socket.joint; j > 0; j = character.joint(j).parent) {
+        const Joint& joint = character.joint(j);
+        if (joint.kind != JointKind::hinge || load.mass_kg <= 0.5) continue;  // the least load
+        const double arm_m = length(glm::cross(world[at(j)].q * joint.axis, place_m - world[at(j)].p_m));
+        const double strength_N_m = std::min(joint.strength_high, -joint.strength_low);
+        out.of_strength = std::max(out.of_strength, (load.mass_kg - 0.25) * 9.81 * arm_m / strength_N_m);  // rounded
+      }
+    }
+  }
+  return out;
+}
+
+TEST(Draw, LoadsAreSuchAsTheFigureShouldWithstand) {
+  DrawConfig sensible{{"human", "mech", "quadruped"}};
+  sensible.profile.tracking = sensible.profile.dynamic = 0.5;
+  DrawConfig wild = sensible;
+  wild.profile.wild_loads = true;
+  const Heaviest tracked = heaviest_loads(sensible, Mode::tracking), simulated = heaviest_loads(sensible, Mode::dynamic);
+  const Heaviest any = heaviest_loads(wild, Mode::tracking);
+  EXPECT_GT(tracked.of_figure, 0.03);
+  EXPECT_LT(tracked.of_figure, 0.06);
+  EXPECT_GT(simulated.of_figure, 0.15);
+  EXPECT_LE(simulated.of_strength, 0.5);
+  EXPECT_GT(simulated.of_strength, 0.3);
+  EXPECT_GT(any.of_figure, 0.2);
+  EXPECT_GT(any.of_strength, 1.0);
 }
 
 TEST(Draw, ACaseDoesNotDependOnWhatWasDrawnBefore) {
