@@ -1,5 +1,7 @@
 #include "generator/dynamics/simulate.h"
 
+#include <optional>
+
 #include "generator/dynamics/closed_chain.h"
 #include "generator/dynamics/foot_lifts.h"
 #include "generator/dynamics/joint_ends.h"
@@ -16,7 +18,7 @@ namespace {
 constexpr double kRecovers_s = 1.5;  // after an impact
 constexpr double kNearBody_m = 0.1;  // bodies of the figure that are nearer to each other may touch soon
 constexpr double kBodiesAhead_s = 0.1;
-constexpr double kUnfelt = 0.05;    // of a figure's mass, below which it carries loads without leaving its target for them
+constexpr double kUnfelt = 0.05;    // of a figure's mass; lighter loads do not take it off its target
 constexpr double kSlips_m_s = 0.5;  // a sole that an impact makes faster than this does not stand any more
 
 class Simulation {
@@ -120,13 +122,15 @@ class Simulation {
   void tick(int index, bool moves) {
     s_.equation.place();
     const double frame = frame_ + static_cast<double>(index) / setup_.ticks_per_frame;
-    const bool returns_softly = is_struck() && !s_.loose.is_loose(), is_planted = s_.contacts.is_planted();
+    const bool is_planted = s_.contacts.is_planted();
+    std::optional<double> returning_s;
+    if (is_struck() && !s_.loose.is_loose()) returning_s = (frame - struck_frame_) / motion_.rate_hz;
     // With a load that it feels, a figure may leave its target to relieve its joints, but not while it steps.
     const bool is_exact = !is_struck() && (!feels_load_ || !is_planted);
-    track(body_, target_, frame, tick_s_, {!is_planted, returns_softly, is_exact}, state_, track_, s_.tracked);
+    track(body_, target_, frame, tick_s_, {!is_planted, returning_s, is_exact}, state_, track_, s_.tracked);
     frame_time_ = frame;
     s_.contacts.follow_plan(frame, s_.equation.dynamics);
-    s_.standing.begin_tick(frame, is_disturbed());
+    s_.standing.begin_tick(frame, is_disturbed(), is_struck());
     slow_at_ends(character_, body_, s_.contacts.feet().stands_by_dof(), state_, track_.ahead,
                  shortest_horizon_s(tick_s_), s_.tracked);
     find_bodies(index == 0);

@@ -153,8 +153,8 @@ int Standing::carried_by(const EquationOfMotion& equation, const FootContacts& c
 }
 
 // Takes something from the joint that is overloaded most: a foot in the air comes later, and the zero moment point of a
-// foot that bears most of the weight comes nearer to its ankle; others are spared by all that moves. Answers whether there was
-// anything to do.
+// foot that bears most of the weight comes nearer to its ankle; others are spared by all that moves. Answers whether
+// there was anything to do.
 bool Standing::relieve(const EquationOfMotion& equation, FootContacts& contacts, const Actuation& actuation) {
   const DynamicFigure& figure = *equation.figure;
   const Overload worst = greatest_share(figure, actuation.efforts);
@@ -193,7 +193,8 @@ void Standing::hold_back(EquationOfMotion& equation, FootContacts& contacts, Rec
   take_back(hold_, affordable_share(figure, hold_.efforts, actuation.efforts), actuation);
   if (!exceeds_strength(figure, actuation.efforts)) return;
   record.overpowered();
-  record.efforts(actuation.efforts);
+  // A blow asks for no effort: joints give what they have, and what is missing shows as a fall or a late return.
+  if (!is_struck_) record.efforts(actuation.efforts);
   give_way(equation, contacts, actuation);
 }
 

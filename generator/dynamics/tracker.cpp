@@ -21,7 +21,16 @@ constexpr RootStiffness kLedRoot{12.0, 12.0, 12.0};
 // These are used after a blow. Along the ground, the root comes back little faster than an inverted pendulum of its
 // height falls, sqrt(g / h), since the ground cannot move it much faster.
 constexpr RootStiffness kSoftRoot{5.0, 10.0, 6.0};
-constexpr double kSoftJointStiffness = 8.0;
+// Joints are soft at first, and stiffer than before a while after the blow, so that an arm that a body has stopped on
+// its way comes back in time.
+constexpr double kSoftJointStiffness = 8.0, kSoftUntil_s = 0.3;
+constexpr double kStiffJointStiffness = 18.0, kStiffFrom_s = 0.6;
+
+double joint_stiffness(const Tracking& how) {
+  if (!how.returning_s) return kJointStiffness;
+  const double share = (*how.returning_s - kSoftUntil_s) / (kStiffFrom_s - kSoftUntil_s);
+  return kSoftJointStiffness + (kStiffJointStiffness - kSoftJointStiffness) * std::clamp(share, 0.0, 1.0);
+}
 
 Vec3 vec_at(const double* v) { return {v[0], v[1], v[2]}; }
 void put(const Vec3& v, double* out) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
@@ -155,8 +164,8 @@ Ahead ahead_at(const Link& link, const TargetMotion& target, double frame, const
 // Returns how the target's joint is relative to the figure's.
 Ahead follow_joint(const Link& link, int index, const Tick& tick, const Tracking& how, const FigureState& state,
                    TargetLead& last, double* acceleration) {
-  if (how.exactly || how.returns_softly)
-    return lead_joint(link, tick, how.returns_softly ? kSoftJointStiffness : kJointStiffness,
+  if (how.exactly || how.returning_s)
+    return lead_joint(link, tick, joint_stiffness(how),
                       &state.coords[static_cast<std::size_t>(link.coord)],
                       &state.velocity[static_cast<std::size_t>(link.dof)], last, acceleration);
   const double ahead_s = tick.horizon_to(index);
@@ -166,8 +175,8 @@ Ahead follow_joint(const Link& link, int index, const Tick& tick, const Tracking
 
 void follow_root(const Tick& tick, const Tracking& how, const FigureState& state, TargetLead& turn, TargetLead* travels,
                  std::span<double> acceleration) {
-  if (how.root_leads || how.returns_softly)
-    return lead_root(tick, how.returns_softly ? kSoftRoot : kLedRoot, state, turn, travels, acceleration);
+  if (how.root_leads || how.returning_s)
+    return lead_root(tick, how.returning_s ? kSoftRoot : kLedRoot, state, turn, travels, acceleration);
   const double ahead_s = tick.horizon_to(0);
   track_root(tick.target, tick.after(ahead_s), ahead_s, state, acceleration);
 }

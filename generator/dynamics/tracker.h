@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <optional>
 #include <vector>
 
 #include "generator/dynamics/target.h"
@@ -24,7 +25,7 @@ FigureState moving_start(const Multibody& body, const TargetMotion& target, doub
 struct Tracking {
   bool root_leads =
       false;  // the root follows its own path closely, and legs follow it; otherwise it is tracked like joints
-  bool returns_softly = false;  // after a blow: no faster than the ground can bear
+  std::optional<double> returning_s{};  // after a blow, the time since then: no faster than the ground can bear
   bool exactly = false;  // joints: with a correction of the cubics, so that a figure on the target stays on it exactly
 };
 

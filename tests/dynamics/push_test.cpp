@@ -6,6 +6,7 @@
 #include "generator/generate.h"
 #include "model/core/detmath.h"
 #include "tests/generator/scenes_of_one.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 namespace {
@@ -52,6 +53,37 @@ TEST(Pushes, WhatAStandingHumanWithstandsFollowsFromItsSoles) {
   EXPECT_NEAR(backward / mass_kg, 0.19, 0.05);
   EXPECT_GT(forward / mass_kg, 0.45);
   EXPECT_LT(forward / mass_kg, 0.9);
+}
+
+// The trunk comes near to an arm of a runner that was pushed, and stops it on its way. The arm was still off by 7
+// degrees 0.7 s after the push.
+TEST(Pushes, AnArmThatTheTrunkHasStoppedComesBackInTime) {
+  Spec spec;
+  spec.character.name = "mech";
+  spec.dynamics.mode = Mode::dynamic;
+  spec.dynamics.impacts = {{0, "torso", "", Vec3(0.0), Vec3(0.0, 0.0, -55.0)}};
+  spec.sequences = {fixtures::sequence({fixtures::use("run", "waist", 0, 56, {})})};
+  for (const int frame : {0, 20, 53}) {
+    spec.dynamics.impacts[0].frame = frame;
+    EXPECT_EQ(broken_in(*build_stage(spec, stock_library())), "") << frame;
+  }
+}
+
+// A blow on the arm is far too hard for the wrist. It gives what it has.
+TEST(Pushes, JointsOfAFigureThatWasStruckGiveAtMostTheirStrength) {
+  Spec spec;
+  spec.character.name = "human";
+  spec.dynamics.mode = Mode::dynamic;
+  spec.dynamics.impacts = {{kPushed, "arm_right", "", Vec3(0.0), Vec3(7.5, -54.5, -12.5)}};
+  spec.hold_frames = 60;
+  const Stage stage = *build_stage(spec, stock_library());
+  const Motion motion = generate(stage);
+  const DynamicFigure& figure = stage.dynamics->figure;
+  const auto n = static_cast<std::size_t>(motion.response.dof_count);
+  for (std::size_t i = 0; i < motion.response.efforts.size(); ++i) {
+    EXPECT_LE(motion.response.efforts[i], figure.strength_high[i % n] * 1.001 + 1e-6) << i / n << " " << i % n;
+    EXPECT_GE(motion.response.efforts[i], figure.strength_low[i % n] * 1.001 - 1e-6) << i / n << " " << i % n;
+  }
 }
 
 TEST(Pushes, AHeavierFigureOnLargerSolesWithstandsMore) {
