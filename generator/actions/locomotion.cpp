@@ -20,10 +20,8 @@ namespace {
 
 ParamDef number(const char* name, double low, double high, double preset, const char* help) {
   ParamDef def;
-  def.name = name;
-  def.low = low, def.high = high;
-  def.preset = preset;
-  def.help = help;
+  def.name = name, def.help = help;
+  def.low = low, def.high = high, def.preset = preset;
   return def;
 }
 
@@ -311,6 +309,16 @@ double depth_with_blends(const RuleInput& in, const BendShape& shape, const Acti
   return fitting_depth(in.character, in.room, body.gait, course, in.world, in.scratch, posture.coords);
 }
 
+// The share of the deepest bend on which a figure with mass stays calm; that of an animal also while it comes in and
+// fades. Blends on two legs are slow enough for the speed of the joints (peak_with_blends), and so for the ground.
+double calm_depth(const RuleInput& in, const BendShape& shape, const ActionTime& time) {
+  const auto root_at = [&](double deepest, double progress) {
+    const GaitFrame frame = bent(in, in.body.gait, deepest * shape.share_at(progress));
+    return in.legs.size() > 2 ? with_blends(in, frame, progress * time.left_s, time.comes_in_s).root : frame.root;
+  };
+  return calm_bend({root_at, inverse(in.world[0]) * center_of_mass_m(in.character, in.world), time.takes_s});
+}
+
 void begin_bend(const RuleInput& in, const BendShape& shape, Posture& posture) {
   WholeBody& body = in.body;
   begin_course(in);
@@ -325,7 +333,7 @@ void begin_bend(const RuleInput& in, const BendShape& shape, Posture& posture) {
   if (in.has_mass) {
     const double balanced = balanced_bend(in.character, in.legs, whole, in.world, in.scratch, posture.coords);
     body.deepest_bend = std::min(body.deepest_bend, balanced);
-    const double calm = calm_bend({whole, shape.share_at});
+    const double calm = calm_depth(in, shape, time);
     body.is_slower = calm < body.deepest_bend;
     body.deepest_bend = std::min(body.deepest_bend, calm);
   }

@@ -15,33 +15,30 @@ namespace {
 constexpr double kLifts_m_s2 = 6.0;
 constexpr double kLeans_rad_s2 = 12.0;
 constexpr int kStops = 24;
-constexpr int kSteps = 32;  // of a course
+constexpr int kFewestSteps = 32, kMostSteps = 120;  // of a course
+constexpr double kStepsPerSecond = 60.0;
 
-// Returns true if hips that go so far down stay within both accelerations all the way.
-bool is_calm(const BendCourse& course, double deepest) {
-  const double step_s = course.bend.takes_s / kSteps;
+// The accelerations at a step of a course, times the square of the step's length.
+struct StepChange {
+  double lift_m = 0.0;
+  Vec3 lean_rad{0.0};
+};
+
+std::vector<StepChange> changes_of(const BendCourse& course, double deepest, int steps) {
   const auto root_at = [&](int step) {
-    const double progress = std::clamp(static_cast<double>(step) / kSteps, 0.0, 1.0);
-    return course.bend.frame_at(deepest * course.share_at(progress)).root;
+    return course.root_at(deepest, std::clamp(static_cast<double>(step) / steps, 0.0, 1.0));
   };
-  for (int n = 0; n <= kSteps; ++n) {
-    const Rigid before = root_at(n - 1), now = root_at(n), after = root_at(n + 1);
-    const double lift = after.p_m.y - 2.0 * now.p_m.y + before.p_m.y;
-    const Vec3 lean = to_rotation_vector(after.q * glm::conjugate(now.q)) +
-                      to_rotation_vector(before.q * glm::conjugate(now.q));
-    if (std::fabs(lift) > kLifts_m_s2 * step_s * step_s || length(lean) > kLeans_rad_s2 * step_s * step_s) return false;
+  const auto height_m = [&](const Rigid& root) { return (root * course.center_m).y; };
+  std::vector<StepChange> changes;
+  Rigid before = root_at(-1), now = root_at(0);
+  for (int n = 0; n <= steps; ++n) {
+    const Rigid after = root_at(n + 1);
+    changes.push_back({height_m(after) - 2.0 * height_m(now) + height_m(before),
+                       to_rotation_vector(after.q * glm::conjugate(now.q)) +
+                           to_rotation_vector(before.q * glm::conjugate(now.q))});
+    before = now, now = after;
   }
-  return true;
-}
-
-Vec3 center_of_mass(const Character& character, std::span<const Rigid> world) {
-  Vec3 moment(0.0);
-  double mass_kg = 0.0;
-  for (std::size_t j = 0; j < world.size(); ++j) {
-    const Joint& joint = character.joints()[j];
-    moment += joint.mass_kg * (world[j] * joint.center_of_mass_m), mass_kg += joint.mass_kg;
-  }
-  return mass_kg > 0.0 ? moment / mass_kg : Vec3(0.0);
+  return changes;
 }
 
 std::vector<Rigid> soles_of(const Character& character, std::span<const Leg> legs, std::span<const Rigid> world) {
@@ -94,6 +91,16 @@ double behind_m(const Leg& leg, const Rigid& flat, const Rigid& sole, const Vec3
 
 }  // namespace
 
+Vec3 center_of_mass_m(const Character& character, std::span<const Rigid> world) {
+  Vec3 moment(0.0);
+  double mass_kg = 0.0;
+  for (std::size_t j = 0; j < world.size(); ++j) {
+    const Joint& joint = character.joints()[j];
+    moment += joint.mass_kg * (world[j] * joint.center_of_mass_m), mass_kg += joint.mass_kg;
+  }
+  return mass_kg > 0.0 ? moment / mass_kg : Vec3(0.0);
+}
+
 double balanced_bend(const Character& character, std::span<const Leg> legs, const Bend& bend,
                      std::span<const Rigid> world, const TrialSpace& scratch, std::span<double> row) {
   constexpr double kBehind_m = 0.03;  // a moving figure can be so far behind for a moment
@@ -101,7 +108,7 @@ double balanced_bend(const Character& character, std::span<const Leg> legs, cons
   const std::vector<Rigid> flat = soles_of(character, legs, scratch.world);
   for (int n = 1; n <= kStops; ++n) {
     stand_bent(character, legs, bend.frame_at(static_cast<double>(n) / kStops), world, scratch.world, row);
-    const Vec3 center_m = center_of_mass(character, scratch.world);
+    const Vec3 center_m = center_of_mass_m(character, scratch.world);
     for (std::size_t i = 0; i < legs.size(); ++i) {
       const Rigid sole = world_from_socket(character, scratch.world, legs[i].sole);
       if (behind_m(legs[i], flat[i], sole, center_m) > kBehind_m) return static_cast<double>(n - 1) / kStops;
@@ -111,8 +118,19 @@ double balanced_bend(const Character& character, std::span<const Leg> legs, cons
 }
 
 double calm_bend(const BendCourse& course) {
-  for (int stop = kStops; stop > 0; --stop)
-    if (const double share = static_cast<double>(stop) / kStops; is_calm(course, share)) return share;
+  const int steps = std::clamp(static_cast<int>(course.takes_s * kStepsPerSecond), kFewestSteps, kMostSteps);
+  const double step_s = course.takes_s / steps, most_m = kLifts_m_s2 * step_s * step_s;
+  const double most_rad = kLeans_rad_s2 * step_s * step_s;
+  const std::vector<StepChange> without = changes_of(course, 0.0, steps);
+  for (int stop = kStops; stop > 0; --stop) {
+    const double share = static_cast<double>(stop) / kStops;
+    const std::vector<StepChange> with = changes_of(course, share, steps);
+    bool is_calm = true;
+    for (std::size_t n = 0; n < with.size() && is_calm; ++n)
+      is_calm = std::fabs(with[n].lift_m - without[n].lift_m) <= most_m &&
+                length(with[n].lean_rad - without[n].lean_rad) <= most_rad;
+    if (is_calm) return share;
+  }
   return 0.0;
 }
 
@@ -122,14 +140,14 @@ Vec3 shift_over_feet_m(const Character& character, std::span<const Leg> legs, co
   if (legs.empty()) return Vec3(0.0);
   stand_bent(character, legs, bend.frame_at(0.0), world, scratch.world, row);
   const std::vector<Rigid> first = soles_of(character, legs, scratch.world);
-  const Vec3 from_sole = center_of_mass(character, scratch.world) - mean_place_m(first);
+  const Vec3 from_sole = center_of_mass_m(character, scratch.world) - mean_place_m(first);
   GaitFrame low = bend.frame_at(1.0);
   Vec3 shift_m(0.0);
   for (int round = 0; round < kRefinements; ++round) {
     stand_bent(character, legs, low, world, scratch.world, row);
     const std::vector<Rigid> soles = soles_of(character, legs, scratch.world);
     const Bearing bearing = bearing_of(legs, first, soles, from_sole);
-    Vec3 off_m = bearing.point_m - center_of_mass(character, scratch.world);
+    Vec3 off_m = bearing.point_m - center_of_mass_m(character, scratch.world);
     off_m.y = 0.0;
     const double far_m = length(off_m);
     if (far_m <= bearing.around_m) break;

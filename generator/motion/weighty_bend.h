@@ -6,14 +6,18 @@
 
 namespace contort {
 
-// A bend, and its fraction of the way as a function of the progress of its course, both [0, 1].
+Vec3 center_of_mass_m(const Character& character, std::span<const Rigid> world);
+
 struct BendCourse {
-  const Bend& bend;
-  FunctionRef<double(double)> share_at;
+  // The root of a bend that goes so far down, [0, 1], at a progress of its course, [0, 1], with its blends.
+  FunctionRef<Rigid(double deepest, double progress)> root_at;
+  Vec3 center_m{0.0};  // the centre of mass before the bend, in the root's frame
+  double takes_s = 0.0;
 };
 
-// The largest fraction of the way down, [0, 1], on which the hips accelerate upward and downward by at most 6 m/s^2 and
-// lean by at most 12 rad/s^2, so that the soles can hold the figure.
+// The largest fraction of the way down, [0, 1], on which the centre of mass accelerates upward and downward by at most
+// 6 m/s^2, as far as the root takes it along, and the hips lean by at most 12 rad/s^2, so that the soles can hold the
+// figure. An animal's hips are far behind its centre of mass, which rises when they lean.
 double calm_bend(const BendCourse& course);
 
 // The largest fraction of the way down, [0, 1], up to which the centre of mass is above the part of each foot that bears:

@@ -81,8 +81,8 @@ TEST(SingleActions, AShoulderThatIsAimedAgainTurnsThereLittleByLittle) {
   EXPECT_EQ(broken_in(*stage), "");
 }
 
-// A load of 5 kg on a figure of 420 kg switched to another way of tracking, which jolts: the zero moment point went 5 cm
-// out of the support area.
+// A load of 5 kg on a figure of 420 kg switched to another way of tracking, which jolts: the zero moment point went
+// 5 cm out of the support area.
 TEST(SingleActions, ALoadThatAFigureHardlyFeelsDoesNotChangeHowItFollows) {
   Spec spec;
   spec.character.name = "mech";
@@ -94,6 +94,23 @@ TEST(SingleActions, ALoadThatAFigureHardlyFeelsDoesNotChangeHowItFollows) {
   const Result<Stage> stage = build_stage(spec, stock_library());
   ASSERT_TRUE(stage) << to_line(stage.issue());
   EXPECT_EQ(broken_in(*stage), "");
+}
+
+// The crouch faded so fast that the ground would have had to pull: the centre of mass of a dog is far ahead of its
+// hips, and rises when they stop leaning.
+TEST(SingleActions, ADogRisesFromALeaningCrouchNoFasterThanItsWeightAllows) {
+  for (const int fades_frames : {1, 3, 6, 9}) {
+    Spec spec;
+    spec.character.name = "quadruped";
+    spec.dynamics.mode = Mode::tracking;
+    ActionUse crouch = use("crouch", "hips", 0, 45, {{"lean_deg", 11.0}});
+    crouch.blend_in_frames = ActionUse().blend_in_frames, crouch.blend_out_frames = fades_frames;
+    spec.sequences = {sequence({crouch})};
+    spec.hold_frames = 20;
+    const Result<Stage> stage = build_stage(spec, stock_library());
+    ASSERT_TRUE(stage) << to_line(stage.issue());
+    EXPECT_EQ(broken_in(*stage), "") << fades_frames;
+  }
 }
 
 // It leaves the ground in the first frame, and its edge touches the ground on the way.

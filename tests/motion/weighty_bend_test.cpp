@@ -12,13 +12,12 @@ namespace {
 
 const auto there_and_back = [](double progress) { return 0.5 - 0.5 * det::cos(2.0 * kPi * progress); };
 
-double calm_depth(double down_m, double lean_rad, double takes_s) {
-  const auto frame_at = [&](double share) {
-    GaitFrame frame;
-    frame.root = {axis_angle(Vec3(1, 0, 0), share * lean_rad), Vec3(0.0, 1.0 - share * down_m, 0.0)};
-    return frame;
+double calm_depth(double down_m, double lean_rad, double takes_s, double ahead_m = 0.0) {
+  const auto root_at = [&](double deepest, double progress) {
+    const double share = deepest * there_and_back(progress);
+    return Rigid{axis_angle(Vec3(1, 0, 0), share * lean_rad), Vec3(0.0, 1.0 - share * down_m, 0.0)};
   };
-  return calm_bend({{frame_at, takes_s, kPi}, there_and_back});
+  return calm_bend({root_at, Vec3(0.0, 0.0, ahead_m), takes_s});
 }
 
 TEST(WeightyBend, HipsGoDownNoFurtherThanTimeAllows) {
@@ -30,6 +29,11 @@ TEST(WeightyBend, HipsGoDownNoFurtherThanTimeAllows) {
 TEST(WeightyBend, HipsLeanNoFurtherThanTimeAllows) {
   EXPECT_LT(calm_depth(0.0, 1.2, 0.5), 0.2);
   EXPECT_EQ(calm_depth(0.0, 1.2, 3.0), 1.0);
+}
+
+TEST(WeightyBend, ACentreOfMassAheadOfTheHipsRisesWhenTheyLean) {
+  EXPECT_EQ(calm_depth(0.0, 0.5, 1.5), 1.0);
+  EXPECT_LT(calm_depth(0.0, 0.5, 1.5, 2.0), 0.8);
 }
 
 struct LeaningHuman {
