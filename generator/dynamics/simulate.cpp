@@ -123,14 +123,14 @@ class Simulation {
     s_.equation.place();
     const double frame = frame_ + static_cast<double>(index) / setup_.ticks_per_frame;
     const bool is_planted = s_.contacts.is_planted();
-    std::optional<double> returning_s;
-    if (is_struck() && !s_.loose.is_loose()) returning_s = (frame - struck_frame_) / motion_.rate_hz;
+    std::optional<double> since_blow_s;
+    if (is_struck() && !s_.loose.is_loose()) since_blow_s = (frame - struck_frame_) / motion_.rate_hz;
     // With a load that it feels, a figure may leave its target to relieve its joints, but not while it steps.
     const bool is_exact = !is_struck() && (!feels_load_ || !is_planted);
-    track(body_, target_, frame, tick_s_, {!is_planted, returning_s, is_exact}, state_, track_, s_.tracked);
+    track(body_, target_, frame, tick_s_, {!is_planted, since_blow_s, is_exact}, state_, track_, s_.tracked);
     frame_time_ = frame;
     s_.contacts.follow_plan(frame, s_.equation.dynamics);
-    s_.standing.begin_tick(frame, is_disturbed(), is_struck());
+    s_.standing.begin_tick(frame, is_disturbed());
     slow_at_ends(character_, body_, s_.contacts.feet().stands_by_dof(), state_, track_.ahead,
                  shortest_horizon_s(tick_s_), s_.tracked);
     find_bodies(index == 0);

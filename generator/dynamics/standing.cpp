@@ -193,8 +193,7 @@ void Standing::hold_back(EquationOfMotion& equation, FootContacts& contacts, Rec
   take_back(hold_, affordable_share(figure, hold_.efforts, actuation.efforts), actuation);
   if (!exceeds_strength(figure, actuation.efforts)) return;
   record.overpowered();
-  // A blow asks for no effort: joints give what they have, and what is missing shows as a fall or a late return.
-  if (!is_struck_) record.efforts(actuation.efforts);
+  record.efforts(actuation.efforts);
   give_way(equation, contacts, actuation);
 }
 

@@ -18,10 +18,8 @@ class Standing {
   void begin(const DynamicFigure& figure, const BalancePlan& plan, double tick_s);
 
   // Sets the time of a tick in frames. `is_disturbed` is true if a force acts from outside; dynamic control is inactive
-  // without one. `is_struck` is true for a while after a blow.
-  void begin_tick(double frame, bool is_disturbed, bool is_struck) {
-    frame_ = frame, is_disturbed_ = is_disturbed, is_struck_ = is_struck;
-  }
+  // without one.
+  void begin_tick(double frame, bool is_disturbed) { frame_ = frame, is_disturbed_ = is_disturbed; }
 
   // Resets control, because the velocities have changed at once.
   void rest() { control_.rest(); }
@@ -67,7 +65,6 @@ class Standing {
   double tick_s_ = 0.0;
   double frame_ = 0.0;
   bool is_disturbed_ = false;
-  bool is_struck_ = false;
   Steering steering_;
   GroundControl ground_control_;
   std::vector<GroundRow> rows_;  // rows of this tick

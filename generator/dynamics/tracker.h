@@ -1,8 +1,8 @@
 // A figure that follows a target: its state, and the wanted accelerations of tracking control.
 #pragma once
 
-#include <span>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "generator/dynamics/target.h"
@@ -25,7 +25,8 @@ FigureState moving_start(const Multibody& body, const TargetMotion& target, doub
 struct Tracking {
   bool root_leads =
       false;  // the root follows its own path closely, and legs follow it; otherwise it is tracked like joints
-  std::optional<double> returning_s{};  // after a blow, the time since then: no faster than the ground can bear
+  // The time since the last blow, s. While it is set, the figure returns no faster than the ground can bear.
+  std::optional<double> since_blow_s{};
   bool exactly = false;  // joints: with a correction of the cubics, so that a figure on the target stays on it exactly
 };
 

@@ -121,7 +121,7 @@ double calm_bend(const BendCourse& course) {
   const int steps = std::clamp(static_cast<int>(course.takes_s * kStepsPerSecond), kFewestSteps, kMostSteps);
   const double step_s = course.takes_s / steps, most_m = kLifts_m_s2 * step_s * step_s;
   const double most_rad = kLeans_rad_s2 * step_s * step_s;
-  const std::vector<StepChange> without = changes_of(course, 0.0, steps);
+  const std::vector<StepChange> without = changes_of(course, 0.0, steps);  // those of its blends alone do not count
   for (int stop = kStops; stop > 0; --stop) {
     const double share = static_cast<double>(stop) / kStops;
     const std::vector<StepChange> with = changes_of(course, share, steps);

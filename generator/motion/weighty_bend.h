@@ -6,6 +6,7 @@
 
 namespace contort {
 
+// The centre of mass of a figure whose joints are placed so, in the world.
 Vec3 center_of_mass_m(const Character& character, std::span<const Rigid> world);
 
 struct BendCourse {
