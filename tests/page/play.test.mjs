@@ -222,6 +222,22 @@ test('the address opens the case of a bucket', need, async () => {
   await close();
 });
 
+test('a press of Play waits until the session is open', need, async () => {
+  mock.corpus.set('pop-77', { bucket: 'pop-77', cases: { min: { spec: {
+    format: 'contort.spec/1', character: { name: 'human' } } } } });
+  mock.commands.length = 0;
+  mock.faults.push({ path: '/api/sessions', status: 429, text: 'Too many sessions.', retry_after: 2, times: 1 });
+  const { page, wrong, close } = await openPage(`${mock.url}play#case=pop-77`);
+  await page.getByText('Too many sessions.').waitFor();
+  assert.equal(await page.locator('.controls .play').isDisabled(), true);
+  await page.keyboard.press(' ');
+  await page.locator('.controls .play').click();
+  await page.waitForFunction(() => /frame [1-9]/.test(document.querySelector('.frame-text').textContent));
+  assert.deepEqual(mock.commands.filter(({ name }) => name === 'clock').map(({ body }) => body), [{ play: true }]);
+  assert.deepEqual(wrong.filter((text) => !/429/.test(text)), []);
+  await close();
+});
+
 test('a busy server is asked again, an error is told in its words', need, async () => {
   const { page, close } = await openPlay();
   mock.faults.push({ path: '/clock', status: 429, text: 'Too many calls from here.', retry_after: 1, times: 1 });

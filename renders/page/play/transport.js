@@ -15,18 +15,27 @@ export class Transport {
       colliders: toggle('Colliders', 'c', () => calls.set('colliders'), 'The solids that the checks measure'),
       follow: toggle('Follow', 'f', () => calls.set('follow'), 'The view goes along with the character'),
     };
+    this.restart = textButton('Restart', 'Home', calls.restart);
+    this.forward = iconButton('forward', 'One frame on', '\u2192', () => calls.step(1),
+      { 'aria-keyshortcuts': 'ArrowRight' });
     this.frame = el('output', { class: 'frame-text' });
     this.element = el('div', { class: 'controls' },
       el('div', { class: 'group', role: 'group', 'aria-label': 'Clock' },
-        textButton('Restart', 'Home', calls.restart),
+        this.restart,
         iconButton('back', 'Look one frame back', '\u2190', () => calls.look(-1), { 'aria-keyshortcuts': 'ArrowLeft' }),
         this.play,
-        iconButton('forward', 'One frame on', '\u2192', () => calls.step(1), { 'aria-keyshortcuts': 'ArrowRight' }),
+        this.forward,
         this.now),
       this.frame,
       el('div', { class: 'group', role: 'group', 'aria-label': 'Picture' }, ...Object.values(this.toggles)));
     this.showPlaying(false);
     this.showLooking(false);
+    this.showOpen(false);
+  }
+
+  // The clock is the session's: without one, the buttons that move it cannot be pressed.
+  showOpen(open) {
+    for (const button of [this.restart, this.play, this.forward]) button.disabled = !open;
   }
 
   showPlaying(playing) {

@@ -155,7 +155,9 @@ export class PlayView {
 
   // ---- commands
 
+  // A key may come before the session is there.
   command(name, body) {
+    if (!this.session.state) return Promise.resolve(false);
     this.look(null);
     return this.guard(() => this.session.command(name, body));
   }
@@ -193,6 +195,7 @@ export class PlayView {
 
   showState(state) {
     sessionStorage.setItem('session', state.session);
+    this.transport.showOpen(true);
     for (const one of this.panels) one.update(state);
   }
 
