@@ -69,6 +69,21 @@ TEST(ShrinkStages, TwoFieldsThatOnlyGoTogetherGo) {
   for (const ActionUse& use : result.minimal.spec.sequences[0].clips[0].actions) EXPECT_TRUE(use.params.empty());
 }
 
+TEST(ShrinkStages, ALoadGetsNoHeavierThanItWas) {
+  const auto with_load = [](double mass_kg) {
+    Spec spec = spec_of({});
+    spec.dynamics.mode = Mode::tracking;
+    LoadDesc& load = spec.dynamics.loads.emplace_back();
+    load.slot = "torso", load.socket = "back", load.mass_kg = mass_kg;
+    return spec;
+  };
+  const auto loaded = [](const Spec& spec) { return spec.dynamics.loads.empty() ? 0.0 : 1.0; };
+  const double least_kg = shrunk(with_load(0.5), loaded).minimal.spec.dynamics.loads.at(0).mass_kg;
+  const double most_kg = shrunk(with_load(40.0), loaded).minimal.spec.dynamics.loads.at(0).mass_kg;
+  EXPECT_EQ(least_kg, 0.5);
+  EXPECT_EQ(most_kg, LoadDesc().mass_kg);
+}
+
 TEST(ShrinkStages, TwoActionsThatOnlyGoTogetherGo) {
   std::vector<ActionUse> uses;
   for (const char* slot : {"arm_left", "arm_right", "leg_left", "leg_right", "head"})
