@@ -214,11 +214,13 @@ EnvironmentDesc compose_environment(const RawSpec& raw, const Features& features
   return environment;
 }
 
-// Returns the obstacles alone, on a level plane: a figure at rest stands on any ground like on this one.
-Environment walls_of(const EnvironmentDesc& environment) {
-  EnvironmentDesc walls;
-  walls.obstacles = environment.obstacles;
-  return build_environment(walls).value();
+// Returns the surroundings for poses that are tried on a figure at rest: obstacles, and steps, whose treads are level.
+// On a slope or rough ground the figure adapts its posture, so a plane stands for these.
+Environment beside_rest(const EnvironmentDesc& environment) {
+  EnvironmentDesc beside;
+  beside.obstacles = environment.obstacles;
+  if (std::holds_alternative<StepsGround>(environment.ground)) beside.ground = environment.ground;
+  return build_environment(beside).value();
 }
 
 // Chooses one of the sequences of the queue and gives it a name.
@@ -305,7 +307,7 @@ Spec compose(const RawSpec& raw, const DrawConfig& config, Generator& generator)
   const Result<Character> character = build_character(spec.character, *manifest.library);
   if (!character) return spec;  // the caller's build gives the reason
   spec.environment = compose_environment(raw, features, manifest.can, *character);
-  const Environment beside = walls_of(spec.environment);
+  const Environment beside = beside_rest(spec.environment);
   PosedFigure posed(*character, beside);
   const Stock stock = stock_of(*character, generator.offers(*character), features, posed);
   for (const std::vector<RawClip>& clips : raw.sequences)

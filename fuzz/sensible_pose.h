@@ -24,7 +24,8 @@ class PosedFigure {
 
   // Moves the joint values in use.params (those of Domain::joint_range) towards rest, halving them until no joint
   // leaves its range, and no body of the figure collides with another one, the ground or an obstacle, on two ways to
-  // the pose: from rest, and from the poses before. After four halvings, the values are those of rest.
+  // the pose: from rest, and from the poses before. The ground does not count for legs, which step onto it by
+  // themselves. After four halvings, the values are those of rest.
   void add_sensible(const Part& part, const std::vector<ParamDef>& params, ActionUse& use);
 
  private:

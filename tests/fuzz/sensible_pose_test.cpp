@@ -17,12 +17,12 @@ const OfferedAction& pose_of(const Character& character, int part) {
   return *find_offer(stock_generator().offers(character), part, "pose");
 }
 
-ActionUse made_sensible(const Character& character, const std::string& slot, std::map<std::string, ParamValue> values) {
+ActionUse made_sensible(const Character& character, const std::string& slot, std::map<std::string, ParamValue> values,
+                        const Environment& environment = {}) {
   const int part = character.find_part(slot);
   ActionUse use;
   use.action = "pose", use.slot = slot, use.params = std::move(values);
-  const Environment open;
-  PosedFigure(character, open)
+  PosedFigure(character, environment)
       .add_sensible(character.parts()[static_cast<std::size_t>(part)], pose_of(character, part).params, use);
   return use;
 }
@@ -51,6 +51,22 @@ TEST(SensiblePoses, BringBackAHandThatWouldBeInTheChest) {
   as_drawn.params = into_chest;
   EXPECT_GT(collisions(as_drawn), 0U);
   EXPECT_EQ(collisions(use), 0U);
+}
+
+TEST(SensiblePoses, BringBackAHeadThatWouldBeInAStep) {
+  const Character dog = fixtures::built({"quadruped", {}, {}});
+  using Values = std::map<std::string, ParamValue>;
+  const auto before_steps = [&](double start_m, int count, const Values& values) {
+    EnvironmentDesc ahead;
+    StepsGround steps;
+    steps.start_m = start_m, steps.height_m = 0.22, steps.count = count;
+    ahead.ground = steps;
+    return made_sensible(dog, "head", values, build_environment(ahead).value()).params;
+  };
+  const Values lowered = {{"neck_flex_deg", 46.0}}, raised = {{"neck_flex_deg", -10.0}};
+  EXPECT_NE(before_steps(0.67, 5, lowered), lowered);
+  EXPECT_EQ(before_steps(2.0, 5, lowered), lowered);
+  EXPECT_EQ(before_steps(0.2, 1, raised), raised) << "paws inside a step do not count";
 }
 
 TEST(SensiblePoses, PartsThatCarryASole) {
