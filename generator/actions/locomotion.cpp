@@ -293,10 +293,8 @@ double peak_with_blends(const BendShape& shape, const ActionTime& time) {
   return std::max(shape.peak, most * time.takes_s / time.frame_s);
 }
 
-// The share of the deepest bend that standing legs can follow while it comes in and fades, too. Short bends, which are
-// fast, are tried in every frame.
+// The share of the deepest bend that standing legs can follow while it comes in and fades, too.
 double depth_with_blends(const RuleInput& in, const BendShape& shape, const ActionTime& time, Posture& posture) {
-  constexpr double kMostSamples = 40.0;
   WholeBody& body = in.body;
   if (!(time.takes_s > 0.0)) return 1.0;
   const auto frame_at = [&](Gait& gait, const Pace& pace, double time_s) {
@@ -304,8 +302,7 @@ double depth_with_blends(const RuleInput& in, const BendShape& shape, const Acti
     return with_blends(in, bent(in, gait, pace.speed * body.deepest_bend * share), time_s, time.comes_in_s);
   };
   const double step_s = time.duration_s / time.takes_s * time.frame_s;
-  const double frames = std::max(1.0, std::ceil(time.left_s / step_s / kMostSamples));  // from one sample to the next
-  const CourseTrial course{frame_at, time.left_s, frames * step_s, frames * time.frame_s, 0.0, 0.0};
+  const CourseTrial course{frame_at, time.left_s, step_s, time.frame_s, 0.0, 0.0};
   return fitting_depth(in.character, in.room, body.gait, course, in.world, in.scratch, posture.coords);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "generator/motion/joint_clamp.h"
 #include "generator/motion/place_foot.h"
@@ -21,7 +22,11 @@ constexpr double kShortestRise_s = 0.0205;  // from rest to a joint's greatest s
 // An even gait with this much to spare needs no trial of its start and stop, which bend joints a little farther.
 constexpr double kEasySpeed = 0.75;      // of a joint's greatest speed
 constexpr double kEasyRange_rad = 0.08;  // from the ends of its range
-constexpr int kMostJoints = 64;            // of legs that are tried
+// A bend is tried at no more places than these if joints stay slow from one to the next. A joint that turns too fast in
+// one of the frames between two places, as a knee does just before it is straight, is not slow there either.
+constexpr double kMostPlaces = 40.0;
+constexpr double kSlow = 0.4;    // of a joint's greatest speed
+constexpr int kMostJoints = 64;  // of legs that are tried
 
 class Trial {
  public:
@@ -36,6 +41,18 @@ class Trial {
     for (int n = 0; n <= kSamples; ++n) {
       place(course_.frame_at(gait, {}, course_.even_s + n * step_s));
       if (!keeps_joints_easily(n > 0 ? step_s * course_.frame_s / course_.step_s : 0.0) || !has_room()) return false;
+      std::ranges::copy(row_, scratch_.row.begin());
+    }
+    return true;
+  }
+
+  bool is_slow(Gait gait, const Pace& pace) {
+    const double frames = std::ceil(course_.lasts_s / course_.step_s / kMostPlaces);  // from one place to the next
+    const double step_s = std::max(1.0, frames) * course_.step_s;
+    const int steps = static_cast<int>(std::ceil(course_.lasts_s / step_s));
+    for (int n = 0; n <= steps; ++n) {
+      place(course_.frame_at(gait, pace, std::min(n * step_s, course_.lasts_s)));
+      if (!keeps_joints_slow(n > 0 ? step_s * course_.frame_s / course_.step_s : 0.0) || !has_room()) return false;
       std::ranges::copy(row_, scratch_.row.begin());
     }
     return true;
@@ -80,13 +97,26 @@ class Trial {
     });
   }
 
+  bool keeps_joints_slow(double way_s) const {
+    return std::ranges::all_of(legs(), [&](const Leg& leg) {
+      return std::ranges::all_of(leg.joints, [&](int j) {
+        const Joint& joint = character_.joint(j);
+        return is_in_range(joint, row_) && (way_s <= 0.0 || way_of(joint) <= kSlow * joint.max_speed * way_s);
+      });
+    });
+  }
+
+  // The way since the sample before.
+  double way_of(const Joint& joint) const {
+    return joint_way(joint, scratch_.row.data() + joint.coord, row_.data() + joint.coord);
+  }
+
   bool keeps_easily(const Joint& joint, double way_s) const {
     if (!is_in_range(joint, row_)) return false;
     const double angle = row_[at(joint.coord)];
     const bool is_free = joint.kind != JointKind::hinge || joint.high - joint.low < 2.0 * kEasyRange_rad ||
                          std::min(angle - joint.low, joint.high - angle) > kEasyRange_rad;
-    const double way = joint_way(joint, scratch_.row.data() + joint.coord, row_.data() + joint.coord);
-    return is_free && (way_s <= 0.0 || way <= kEasySpeed * joint.max_speed * way_s);
+    return is_free && (way_s <= 0.0 || way_of(joint) <= kEasySpeed * joint.max_speed * way_s);
   }
 
   bool keeps_joint(const Joint& joint, Vec3& last_step) {
@@ -130,7 +160,9 @@ Pace fitting_pace(const Character& character, LimbRoom& room, const Gait& begun,
 double fitting_depth(const Character& character, LimbRoom& room, const Gait& begun, const CourseTrial& course,
                      std::span<const Rigid> world, const TrialSpace& scratch, std::span<double> row) {
   Trial trial(character, room, course, world, scratch, row);
-  const auto* fits = std::ranges::find_if(kSpeeds, [&](double share) { return trial.fits(begun, {share, 1.0}); });
+  const auto* fits = std::ranges::find_if(kSpeeds, [&](double share) {
+    return trial.is_slow(begun, {share, 1.0}) || trial.fits(begun, {share, 1.0});
+  });
   return fits != kSpeeds.end() ? *fits : 1.0;
 }
 

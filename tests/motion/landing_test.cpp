@@ -131,6 +131,20 @@ TEST(Landing, ASquatThatIsToFadeFasterThanLegsMoveBeginsToFadeEarlier) {
     }
 }
 
+// Hips that go ahead stretch the legs: just before a knee is straight it turns fast for a single frame, between the
+// frames at which long squats were tried.
+TEST(Landing, AKneeIsNotTooFastWhereALongSquatStretchesIt) {
+  StageEvaluator evaluator;
+  for (const int frames : {60, 72, 90, 120})
+    for (const double back_m : {-0.3, -0.5}) {
+      const ActionUse squat = use("squat", "waist", 0, frames, {{"share", 0.0}, {"back_m", back_m}});
+      Spec spec = spec_with("mech", squat, 10);
+      spec.character.parts = {{"leg_left", "mech_leg_reverse"}};
+      for (const std::string check : {"angular_velocity", "angular_acceleration", "pop", "foot_slide"})
+        EXPECT_FALSE(shows(spec, evaluator, check)) << frames << " " << back_m << " " << check;
+    }
+}
+
 // Ankles tilt less far than the ground, and a leg need not become straight.
 TEST(Landing, FiguresAtRestStandOnSlopesOfAnyHeading) {
   StageEvaluator evaluator;
