@@ -25,7 +25,7 @@ void place_hips(const Spec& spec, Stage& stage) {
   for (Leg& leg : stage.legs) {
     const double soft_m = spec.dynamics.mode == Mode::kinematic ? 0.0 : kSoftKnees * leg.length_m;
     const double lower_m = std::max(spec.start.lower_m, soft_m);
-    leg.home_m.z -= spec.start.ahead_m, leg.length_m -= lower_m;
+    leg.home_m.z -= spec.start.ahead_m, leg.length_m -= lower_m, leg.kept_bent_m = lower_m;
     if (spec.dynamics.mode != Mode::kinematic) leg.ankle_reserve_rad = kAnkleReserve_rad;
     stage.bends = stage.bends || spec.start.ahead_m != 0.0 || lower_m != 0.0;
   }

@@ -16,6 +16,12 @@ double shortest_leg_m(std::span<const Leg> legs) {
   return least;
 }
 
+double most_bent_m(std::span<const Leg> legs) {
+  double most = 0.0;
+  for (const Leg& leg : legs) most = std::max(most, leg.kept_bent_m);
+  return most;
+}
+
 double height_at(const LegsBelow& below, const Vec3& at) { return below.environment.height_at(at.x, at.z); }
 
 // The height of a root over legs that are straight where it is by `short_m` below its height at rest.
@@ -54,7 +60,8 @@ Rigid blend_root(const LegsBelow& below, const Rigid& a, const Rigid& b, double 
 
 double lower_to_reach_m(const LegsBelow& below, Rigid& root) {
   if (!(below.short_m > 0.0)) return 0.0;
-  const double short_m = below.short_m + std::min(below.short_m, kLeftBent * shortest_leg_m(below.legs));
+  const double bent_m = kLeftBent * shortest_leg_m(below.legs) - most_bent_m(below.legs);
+  const double short_m = below.short_m + std::clamp(bent_m, 0.0, below.short_m);
   const double lower_m = std::max(0.0, root.p_m.y - straight_at_m(below, root.p_m, short_m));
   root.p_m.y -= lower_m;
   return lower_m;

@@ -24,6 +24,7 @@ struct Leg {
   Vec3 hip_m{0.0};           // the chain's first joint at rest, in the character's frame
   Vec3 sole_from_ankle{0.0};  // the chain's tip at rest, in the sole's frame
   double length_m = 0.0;     // distance from hip to ankle, as far as the range of the joint between them allows
+  double kept_bent_m = 0.0;  // by which that is less in a figure that keeps its knees bent
   double ankle_reserve_rad = 0.0;  // that ankles of a foot that stands keep from the ends of their ranges
   // Greatest tilt of the sole about its Z by the ankle, to either side; pi/2 if no hinge tilts it.
   double tilts_rad = kPi / 2;
