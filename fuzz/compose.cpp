@@ -37,17 +37,6 @@ int blend_of(int raw, int preset, const Features& features, const DrawRule* rule
   return frames > 0 ? frames : preset;
 }
 
-bool is_pose(const OfferedAction& action) {
-  return std::ranges::any_of(action.params, [](const ParamDef& def) { return def.domain == Domain::joint_range; });
-}
-
-// Returns true if a profile has its own ranges for a pose.
-bool narrows(const Profile& profile, const Part& part, const OfferedAction& action) {
-  return profile.range < 1.0 || std::ranges::any_of(action.params, [&](const ParamDef& def) {
-    return profile.rule_for(part.slot, action.name, def.name) != nullptr;
-  });
-}
-
 // The parts that may be moved, and the actions that may move them.
 struct Stock {
   using Actions = std::vector<const OfferedAction*>;
@@ -110,7 +99,7 @@ ActionUse compose_action(const RawAction& raw, const Stock& stock) {
   else if (action.layer != Layer::overwrite)
     draw_blend(raw.blend_out, "blend_out_frames", use.blend_out_frames);
   draw_params(stock.character, part, action, profile, raw.values, use);
-  if (is_pose(action) && !profile.wild_poses && !narrows(profile, part, action))
+  if (is_sensible_in(profile, part, action))
     stock.posed.add_sensible(part, action.params, use);
   return use;
 }
@@ -212,15 +201,6 @@ EnvironmentDesc compose_environment(const RawSpec& raw, const Features& features
   if (can.obstacles && happens(raw.obstacle, features.profile().obstacles) && !features.omits("obstacle"))
     add_wall(raw.obstacle, character, environment);
   return environment;
-}
-
-// Returns the surroundings for poses that are tried on a figure at rest: obstacles, and steps, whose treads are level.
-// On a slope or rough ground the figure adapts its posture, so a plane stands for these.
-Environment beside_rest(const EnvironmentDesc& environment) {
-  EnvironmentDesc beside;
-  beside.obstacles = environment.obstacles;
-  if (std::holds_alternative<StepsGround>(environment.ground)) beside.ground = environment.ground;
-  return build_environment(beside).value();
 }
 
 // Chooses one of the sequences of the queue and gives it a name.

@@ -1,10 +1,13 @@
 #include "fuzz/profile_violations.h"
 
 #include <algorithm>
+#include <optional>
 #include <variant>
 
 #include "fuzz/compose.h"
 #include "fuzz/compose_turns.h"
+#include "fuzz/sensible_pose.h"
+#include "model/core/index.h"
 
 namespace contort {
 
@@ -27,8 +30,12 @@ bool is_outside(const DrawRule& rule, const ParamValue& value) {
 
 class ProfileViolations {
  public:
-  ProfileViolations(const Profile& profile, Generator& generator, const Character* character)
-      : profile_(profile), generator_(generator), character_(character) {}
+  // The character is null if none of the profile's rules needs it.
+  ProfileViolations(const Profile& profile, Generator& generator, const Character* character,
+                    const Environment& environment)
+      : profile_(profile), generator_(generator), character_(character) {
+    if (character != nullptr) posed_.emplace(*character, environment);
+  }
 
   int count(const SequenceDesc& sequence) {
     for (const ClipDesc& clip : sequence.clips) {
@@ -59,7 +66,10 @@ class ProfileViolations {
       count_if(use.duration_frames < profile_.shortest_frames || use.duration_frames > profile_.longest_frames);
     if (character_ == nullptr) return;
     is_known_ = is_known_ && action != nullptr;
-    if (action != nullptr) count(use, *action);
+    if (action == nullptr) return;
+    count(use, *action);
+    const Part& part = character_->parts()[at(character_->find_part(use.slot))];
+    if (is_sensible_in(profile_, part, *action)) count_if(!posed_->add(part, action->params, use));
   }
 
   void count(const ActionUse& use, const OfferedAction& action) {
@@ -80,6 +90,7 @@ class ProfileViolations {
   const Profile& profile_;
   Generator& generator_;
   const Character* character_;
+  std::optional<PosedFigure> posed_;
   bool is_known_ = true;  // all actions are known, so they can take turns
   int count_ = 0;
 };
@@ -87,10 +98,12 @@ class ProfileViolations {
 }  // namespace
 
 int profile_violations(const Spec& spec, const Profile& profile, Generator& generator) {
-  const bool asks_character = !profile.overlaps || !profile.rules.empty() || !generator.manifest().can.speeds;
+  const bool asks_character =
+      !profile.overlaps || !profile.rules.empty() || !generator.manifest().can.speeds || !profile.wild_poses;
   const Result<Character> character =
       asks_character ? build_character(spec.character, *generator.manifest().library) : Result<Character>(Issue{});
-  ProfileViolations found(profile, generator, character ? &*character : nullptr);
+  const Environment environment = beside_rest(spec.environment);
+  ProfileViolations found(profile, generator, character ? &*character : nullptr, environment);
   int count = 0;
   for (const SequenceDesc& sequence : spec.sequences) count = found.count(sequence);
   for (const InterruptDesc& interrupt : spec.interrupts) count = found.count(interrupt.sequence);

@@ -11,8 +11,9 @@
 namespace contort {
 
 // Counts actions and slots that the profile does not draw; durations, blends and parameters outside of its limits and
-// rules; and, if the profile has none of them, other speeds, stretched clips, and actions that take over a part. Items
-// that the generator does not know are not counted. 0 for every drawn spec.
+// rules; if the profile has none of them, other speeds, stretched clips, and actions that take over a part; and poses
+// that put bodies into each other, if the profile draws only sensible ones (sensible_pose.h). Items that the generator
+// does not know are not counted. 0 for every drawn spec.
 int profile_violations(const Spec& spec, const Profile& profile, Generator& generator);
 
 // Returns true if a spec violates the profile no more than `original` does. The generator must outlive it.

@@ -64,7 +64,24 @@ bool carries_sole(const Character& character, int part) {
   });
 }
 
-namespace {
+bool is_pose(const OfferedAction& action) {
+  return std::ranges::any_of(action.params, [](const ParamDef& def) { return def.domain == Domain::joint_range; });
+}
+
+bool is_sensible_in(const Profile& profile, const Part& part, const OfferedAction& action) {
+  const auto has_rule = [&](const ParamDef& def) {
+    return profile.rule_for(part.slot, action.name, def.name) != nullptr;
+  };
+  return is_pose(action) && !profile.wild_poses && profile.range >= 1.0 && std::ranges::none_of(action.params, has_rule);
+}
+
+Environment beside_rest(const EnvironmentDesc& environment) {
+  EnvironmentDesc beside;
+  beside.obstacles = environment.obstacles;
+  if (std::holds_alternative<StepsGround>(environment.ground)) beside.ground = environment.ground;
+  Result<Environment> built = build_environment(beside);
+  return built ? std::move(*built) : Environment();  // a spec with a wrong environment fails anyway
+}
 
 // One part on its way to a pose.
 class WayToPose {
@@ -109,17 +126,17 @@ class WayToPose {
   }
 
   Motion frames(std::span<const double> from) const {
-    constexpr int kFrames = 9;
+    constexpr int kPlaces = 9;
     Motion motion;
-    motion.frame_count = kFrames;
+    motion.frame_count = kPlaces;
     motion.coord_count = character_.coord_count();
-    motion.root.assign(kFrames, character_.rest_root());
+    motion.root.assign(kPlaces, character_.rest_root());
     std::vector<double> end(from.begin(), from.end());
     put_into(end);
-    for (int frame = 0; frame < kFrames; ++frame) {
+    for (int frame = 0; frame < kPlaces; ++frame) {
       motion.coords.insert(motion.coords.end(), from.begin(), from.end());
       for (const Posed& posed : joints_)
-        put_between(*posed.joint, from, end, frame / (kFrames - 1.0), motion.row(frame));
+        put_between(*posed.joint, from, end, frame / (kPlaces - 1.0), motion.row(frame));
     }
     return motion;
   }
@@ -129,19 +146,26 @@ class WayToPose {
   std::vector<Posed> joints_;
 };
 
-}  // namespace
-
 void PosedFigure::add_sensible(const Part& part, const std::vector<ParamDef>& params, ActionUse& use) {
   WayToPose way(character_, part, params, use);
-  const auto is_clear = [&] {
-    return way.is_clear(character_.rest_coords(), environment_) && way.is_clear(row_, environment_);
-  };
   double share = 1.0;
-  for (int halves = 0; share > 0.0 && !is_clear(); ++halves) {
+  for (int halves = 0; share > 0.0 && !is_clear(way); ++halves) {
     share = halves < kMostHalves ? 0.5 * share : 0.0;
     way.shorten_to(share);
   }
   way.put_into(row_);
+}
+
+bool PosedFigure::add(const Part& part, const std::vector<ParamDef>& params, const ActionUse& use) {
+  ActionUse as_it_is = use;
+  const WayToPose way(character_, part, params, as_it_is);
+  const bool clear = is_clear(way);
+  way.put_into(row_);
+  return clear;
+}
+
+bool PosedFigure::is_clear(const WayToPose& way) const {
+  return way.is_clear(character_.rest_coords(), environment_) && way.is_clear(row_, environment_);
 }
 
 }  // namespace contort

@@ -85,6 +85,17 @@ TEST(ProfileViolations, EachIsCounted) {
   EXPECT_EQ(walk([](ActionUse& use) { use.action = "squat"; }), 1);
 }
 
+// Shrinking turned arms by fewer degrees about fewer axes, and so into the trunk.
+TEST(ProfileViolations, PosesThatPutBodiesIntoEachOtherAreCountedUnlessTheProfileDrawsThem) {
+  ActionUse into_trunk = use_of("pose", "arm_left"), raised = use_of("pose", "arm_left");
+  into_trunk.params["shoulder_deg"] = Vec3(0.0, 0.0, -11.0), raised.params["shoulder_deg"] = Vec3(0.0, 0.0, 40.0);
+  const Profile usual = profile_of(R"({"format": "contort.profile/1", "name": "usual"})");
+  const Profile wild = profile_of(R"({"format": "contort.profile/1", "name": "wild", "wild_poses": true})");
+  EXPECT_EQ(profile_violations(spec_of_one(into_trunk), usual, stock_generator()), 1);
+  EXPECT_EQ(profile_violations(spec_of_one(into_trunk), wild, stock_generator()), 0);
+  EXPECT_EQ(profile_violations(spec_of_one(raised), usual, stock_generator()), 0);
+}
+
 TEST(ProfileViolations, VectorsAreHeldAgainstEachLimit) {
   ActionUse look = use_of("look_at", "head");
   look.blend_in_frames = 25;
@@ -128,7 +139,8 @@ TEST(ProfileViolations, AShrunkCaseHasNoMoreThanItsOriginal) {
   const Evaluation evaluation = evaluator.run(*stage);
   ASSERT_FALSE(evaluation.findings.empty());
   const Case original{spec, expectation_of(evaluator.execution(), evaluation, evaluation.findings.front()), {}};
-  const Profile quick = profile_of(R"({"format": "contort.profile/1", "name": "quick", "shortest_frames": 40})");
+  const Profile quick = profile_of(R"({"format": "contort.profile/1", "name": "quick", "shortest_frames": 40,
+    "wild_poses": true})");
   ShrinkConfig config;
   const Shrunk free = shrink(original, stock_generator(), config);
   EXPECT_GT(profile_violations(free.minimal.spec, quick, stock_generator()), 0);
