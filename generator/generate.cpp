@@ -357,7 +357,7 @@ class Generation {
     if (is_cut(playback, stack.overwrite()) || is_cut(playback, stack.ik()))
       s_.path.cut(p, coords);
     else if ((stack.ik().action >= 0 && moves_legs(playback, stack.ik())) ||
-             LimbKeeper(stage_, s_).stays_planted(p))
+             LimbKeeper(stage_, s_).stays_planted(p) || LimbKeeper(stage_, s_).stops_with_hips(p))
       s_.path.pass(p, coords);
     else
       s_.behind[p] = s_.path.follow(p, coords, LimbKeeper(stage_, s_).is_struck(p) ? Haste::struck : Haste::at_ease);

@@ -21,6 +21,10 @@ class LimbKeeper {
   // Returns true if only the trunk that carries it moves this part of a leg, over a foot that stands.
   bool stays_planted(std::size_t p) const;
 
+  // Returns true if this part of a leg on the hips stays as it is and its foot stands, though it may have moved until
+  // now: a course of legs has ended, and the hips have stopped in the same frame.
+  bool stops_with_hips(std::size_t p) const;
+
   // Returns true for a leg, or its foot, that reacts to a blow. Such a leg follows its action without the limits of
   // acceleration at ease, because its foot is lifted at once: a slower leg would pass its place.
   bool is_struck(std::size_t p) const;

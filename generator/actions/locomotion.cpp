@@ -306,12 +306,11 @@ double depth_with_blends(const RuleInput& in, const BendShape& shape, const Acti
   return fitting_depth(in.character, in.room, body.gait, course, in.world, in.scratch, posture.coords);
 }
 
-// The share of the deepest bend on which a figure with mass stays calm; that of an animal also while it comes in and
-// fades. Blends on two legs are slow enough for the speed of the joints (peak_with_blends), and so for the ground.
+// The share of the deepest bend on which a figure with mass stays calm, also while it comes in and fades.
 double calm_depth(const RuleInput& in, const BendShape& shape, const ActionTime& time) {
   const auto root_at = [&](double deepest, double progress) {
     const GaitFrame frame = bent(in, in.body.gait, deepest * shape.share_at(progress));
-    return in.legs.size() > 2 ? with_blends(in, frame, progress * time.left_s, time.comes_in_s).root : frame.root;
+    return with_blends(in, frame, progress * time.left_s, time.comes_in_s).root;
   };
   return calm_bend({root_at, inverse(in.world[0]) * center_of_mass_m(in.character, in.world), time.takes_s});
 }

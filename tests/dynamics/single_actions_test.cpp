@@ -130,6 +130,27 @@ TEST(SingleActions, HipsAreAsHighAfterABendAsBefore) {
       }
 }
 
+// The hips stop in the frame in which a bend is cut by its end, and legs that stopped little by little, as joints at ease
+// do, carried both feet forward by 20 cm, and into the air.
+TEST(SingleActions, FeetStayOnTheGroundWhereABendIsCut) {
+  for (const char* character : {"human", "mech"})
+    for (const char* action : {"squat", "crouch"}) {
+      ActionUse bend = use(action, "waist", 0, 30, {});
+      bend.speed = 0.8, bend.blend_in_frames = bend.blend_out_frames = ActionUse().blend_in_frames;
+      Stage stage = stage_with_mass(character, bend);
+      stage.dynamics = nullptr;
+      const Motion target = generate(stage);
+      std::vector<Rigid> world(stage.character->joints().size());
+      for (const Leg& leg : stage.legs)
+        for (int frame = 30; frame < target.frame_count; ++frame) {
+          forward_kinematics(*stage.character, target.root[at(frame)], target.row(frame), world);
+          const Rigid sole = world_from_socket(*stage.character, world, leg.sole);
+          const Vec3 toes = sole * Vec3(0.0, 0.0, leg.high_m.z);
+          EXPECT_NEAR(toes.y, 0.0, 1e-3) << character << " " << action << " " << frame;
+        }
+    }
+}
+
 // It leaves the ground in the first frame, and its edge touches the ground on the way.
 TEST(SingleActions, AStruckFootIsLiftedOnceFromWhereItStood) {
   const Stage stage = stage_with_mass("mech", blow(25.0, 43.0, 65), {{"leg_left", "mech_leg_reverse"}});
