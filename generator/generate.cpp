@@ -53,6 +53,7 @@ class Generation {
     s_.stuck.assign(character_.parts().size(), 0);
     s_.squeezes.assign(character_.parts().size(), 0);
     s_.had_room.assign(character_.parts().size(), 0);
+    s_.settled.assign(character_.parts().size(), 0);
     s_.returns.assign(character_.parts().size(), 0);
     s_.rests.assign(character_.parts().size(), 0);
     s_.free_arm.assign(character_.parts().size(), 0);
@@ -188,6 +189,7 @@ class Generation {
     if (p == 0) s_.carry.settle(s_.postures.base.root, seen(p).root);
     copy_part(character_, p, seen(p), s_.postures.base);
     copy_part(character_, p, seen(p), s_.postures.from_overwrite);
+    s_.settled[p] = 1;
   }
 
   void begin(const Playback& playback, const LayerHold& hold, std::size_t p, const Posture& present, Posture& from) {

@@ -55,6 +55,7 @@ struct GenerateScratch {
   Past past;                       // the earlier frames
   std::vector<char> free_arm;      // by part: true if a gait may swing it
   std::vector<Shift> shift;        // by part
+  std::vector<char> settled;       // by part: true once an ik action has left it where it had brought it
   std::vector<char> returns;       // by part: true for a leg or foot that returns to the course that the root follows
   std::vector<char> rests;         // by part: true for a leg or foot that is part of `stand`
   Posture rested;                  // the base of legs and feet when their feet last rested

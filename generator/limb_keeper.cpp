@@ -59,7 +59,19 @@ void LimbKeeper::note_grasp(const Playback& playback, const Limb& limb, const He
 }
 
 bool LimbKeeper::acts(const Playback& playback, const Limb& limb) const {
-  return std::ranges::any_of(limb.parts, [&](int p) { return makes_way(playback, at(p)); });
+  return std::ranges::any_of(limb.parts, [&](int p) { return makes_way(playback, at(p)); }) ||
+         is_posed_anew(playback, limb);
+}
+
+// A pose that gives some joints of an arm leaves the others where a reach or an aim has brought them. No author has seen
+// such a posture.
+bool LimbKeeper::is_posed_anew(const Playback& playback, const Limb& limb) const {
+  const auto is_posed = [&](int p) {
+    const LayerHold& pose = s_.stacks[at(p)].overwrite();
+    return pose.action >= 0 && !is_cut(playback, pose);
+  };
+  return limb.legs.empty() && std::ranges::any_of(limb.parts, is_posed) &&
+         std::ranges::any_of(limb.parts, [&](int p) { return s_.settled[at(p)] != 0; });
 }
 
 // As of now for limbs that are finished, else with the shift of the frame before.

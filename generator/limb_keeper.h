@@ -42,6 +42,7 @@ class LimbKeeper {
   bool is_as_rested(const Leg& leg) const;
   void note_grasp(const Playback& playback, const Limb& limb, const HeldObject& held);
   bool acts(const Playback& playback, const Limb& limb) const;
+  bool is_posed_anew(const Playback& playback, const Limb& limb) const;
   LegUse use_of(const Playback& playback, const Limb& limb) const;
   const Limb& limb_at(std::size_t p) const { return s_.rules.room().limb_of(p); }
   void shift(const Limb& limb, Shift shift);

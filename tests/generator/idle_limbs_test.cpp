@@ -1,6 +1,9 @@
 // Limbs that no action moves make way for bodies that come towards them, and limbs that bodies have stopped come back.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "generator/execute.h"
 #include "tests/generator/scenes_of_one.h"
 #include "tests/stage_evaluator.h"
 
@@ -55,6 +58,17 @@ TEST(IdleLimbs, AHandThatAPoseHasPutIntoTheThighStaysThere) {
   EXPECT_NE(broken_in(stage), "");
   const Motion motion = generate(stage);
   EXPECT_NEAR(angle_rad(stage, motion, motion.frame_count - 1, "hand_left/wrist_dev"), -19.0 * kRadPerDeg, 1e-12);
+}
+
+// The pose turns the shoulder alone. With the elbow that the reach leaves bent, the hand went 2.5 cm into the thigh.
+TEST(IdleLimbs, AnArmThatIsPosedAfterAReachMakesWayForBodies) {
+  ActionUse reach = use("reach", "arm_right", 0, 30, {});
+  reach.blend_in_frames = reach.blend_out_frames = ActionUse().blend_in_frames;
+  const ActionUse pose = use("pose", "arm_right", 0, 36, {{"shoulder_deg", Vec3(13.0, 0.0, 0.0)}});
+  const Stage stage = scene("human", {pose, reach}, 30);
+  EXPECT_EQ(broken_in(stage), "");
+  const std::vector<UnmetRequest> unmet = intent_of(stage).unmet;
+  EXPECT_TRUE(std::ranges::any_of(unmet, [](const UnmetRequest& one) { return one.why == Shortfall::clearance; }));
 }
 
 }  // namespace
