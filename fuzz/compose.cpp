@@ -99,8 +99,7 @@ ActionUse compose_action(const RawAction& raw, const Stock& stock) {
   else if (action.layer != Layer::overwrite)
     draw_blend(raw.blend_out, "blend_out_frames", use.blend_out_frames);
   draw_params(stock.character, part, action, profile, raw.values, use);
-  if (is_sensible_in(profile, part, action))
-    stock.posed.add_sensible(part, action.params, use);
+  if (is_sensible_in(profile, part, action)) stock.posed.add_sensible(part, action.params, use);
   return use;
 }
 

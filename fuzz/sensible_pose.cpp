@@ -72,7 +72,8 @@ bool is_sensible_in(const Profile& profile, const Part& part, const OfferedActio
   const auto has_rule = [&](const ParamDef& def) {
     return profile.rule_for(part.slot, action.name, def.name) != nullptr;
   };
-  return is_pose(action) && !profile.wild_poses && profile.range >= 1.0 && std::ranges::none_of(action.params, has_rule);
+  return is_pose(action) && !profile.wild_poses && profile.range >= 1.0 &&
+         std::ranges::none_of(action.params, has_rule);
 }
 
 Environment beside_rest(const EnvironmentDesc& environment) {

@@ -18,8 +18,8 @@ bool carries_sole(const Character& character, int part);
 // Returns true if the action takes values of joints, as `pose` does.
 bool is_pose(const OfferedAction& action);
 
-// Returns true if the profile draws only sensible poses of this action: it has no ranges of its own for it, and does not
-// ask for wild ones.
+// Returns true if the profile draws only sensible poses of this action: it has no ranges of its own for it, and does
+// not ask for wild ones.
 bool is_sensible_in(const Profile& profile, const Part& part, const OfferedAction& action);
 
 // Returns the surroundings for poses that are tried on a figure at rest: obstacles, and steps, whose treads are level.

@@ -63,8 +63,8 @@ bool LimbKeeper::acts(const Playback& playback, const Limb& limb) const {
          is_posed_anew(playback, limb);
 }
 
-// A pose that gives some joints of an arm leaves the others where a reach or an aim has brought them. No author has seen
-// such a posture.
+// Returns true for an arm, head or tail in a pose, once a reach, an aim or the like has moved it: the joints that the
+// pose does not give may be where that action left them, and the author of the pose has not seen such a posture.
 bool LimbKeeper::is_posed_anew(const Playback& playback, const Limb& limb) const {
   const auto is_posed = [&](int p) {
     const LayerHold& pose = s_.stacks[at(p)].overwrite();

@@ -21,8 +21,8 @@ constexpr RootStiffness kLedRoot{12.0, 12.0, 12.0};
 // These are used after a blow. Along the ground, the root comes back little faster than an inverted pendulum of its
 // height falls, sqrt(g / h), since the ground cannot move it much faster.
 constexpr RootStiffness kSoftRoot{5.0, 10.0, 6.0};
-// Joints return softly just after a blow. Later they return with more stiffness than without a blow, so that an arm
-// that another body has stopped on its way arrives in time.
+// The stiffness of joints is low just after a blow. It is higher later, and then exceeds the stiffness of undisturbed
+// motion: an arm that another body has stopped reaches its target in time.
 constexpr double kSoftJointStiffness = 8.0, kSoftUntil_s = 0.3;
 constexpr double kStiffJointStiffness = 18.0, kStiffFrom_s = 0.6;
 
