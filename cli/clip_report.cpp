@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <functional>
 
+#include "checks/pop.h"
 #include "cli/columns_report.h"
 #include "cli/judged_text.h"
 #include "cli/left_out_report.h"

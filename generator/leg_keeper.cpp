@@ -3,6 +3,7 @@
 #include <array>
 
 #include "generator/limb_keeper.h"
+#include "generator/motion/blend.h"
 #include "model/core/index.h"
 #include "model/motion/kinematics.h"
 

@@ -9,6 +9,7 @@
 #include "checks/circumstances.h"
 #include "renders/html.h"
 #include "renders/not_judged_html.h"
+#include "renders/report_cards.h"
 #include "renders/wording.h"
 
 namespace contort {
