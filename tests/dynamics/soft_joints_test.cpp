@@ -33,7 +33,7 @@ struct JoltScene {
     for (int f = 60; f < 120; ++f) motion.row(f)[coord(joint)] = angle_rad;
   }
   bool soften() { return soften_joints(human, legs, easy, motion); }
-  void soften_all_legs() { soften_legs(human, figure, legs, kLevelGround, easy, motion); }
+  void soften_all_legs() { soften_legs(human, figure, legs, {}, easy, motion); }
   double greatest_acceleration(const std::string& joint) const {
     double most = 0.0;
     for (int f = 1; f + 1 < motion.frame_count; ++f)

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "corpus/runs.h"
+#include "tests/checks/family_text.h"
 #include "tests/fuzz/two_builds.h"
 
 namespace contort {

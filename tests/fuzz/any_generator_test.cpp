@@ -6,6 +6,7 @@
 #include "fuzz/labels.h"
 #include "fuzz/run.h"
 #include "renders/case_data.h"
+#include "tests/checks/family_text.h"
 #include "tests/corpus/temp_folder.h"
 #include "tests/fuzz/small_runs.h"
 #include "tests/swing_generator.h"

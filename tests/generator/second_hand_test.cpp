@@ -6,6 +6,7 @@
 #include "corpus/evaluator.h"
 #include "generator/built_in.h"
 #include "generator/timeline/second_hand.h"
+#include "model/motion/kinematics.h"
 #include "tests/generator/scenes_of_one.h"
 
 namespace contort {
