@@ -153,11 +153,23 @@ void FootContacts::ask_less(int index, double share, std::span<const double> acc
     support_.wanted[r] = moved[r] + share * (support_.wanted[r] - moved[r]);
 }
 
-void FootContacts::find_rows(EquationOfMotion& equation, std::span<const double> tracked) {
+void FootContacts::find_rows(EquationOfMotion& equation, std::span<const double> tracked,
+                             std::span<const DofEnd> ends) {
   equation.find_bias();
   middle_ = equation.state.velocity;
   add_scaled(0.5 * tick_s_, tracked, middle_);
-  support_rows(equation.body(), led_, middle_, kFootStiffness, 0.5 * tick_s_, equation.dynamics, support_);
+  still_.clear();
+  find_rows_with(equation, still_);
+  if (ends.empty()) return;
+  probe_.assign(tracked.begin(), tracked.end());
+  keep(probe_);
+  for (const DofEnd& end : ends)
+    if (end.out * probe_[at(end.dof)] > 0.0) still_.push_back(end.dof);
+  if (!still_.empty()) find_rows_with(equation, still_);
+}
+
+void FootContacts::find_rows_with(const EquationOfMotion& equation, std::span<const int> still_dofs) {
+  support_rows(equation.body(), led_, middle_, still_dofs, kFootStiffness, 0.5 * tick_s_, equation.dynamics, support_);
   prepare_projection(ease_, support_);
 }
 

@@ -42,8 +42,9 @@ class FootContacts {
   // The mean horizontal distance of standing soles from the plan's places, m.
   Vec3 shift_m() const;
 
-  // Finds the conditions of guided soles, with the equation's bias. `tracked`: the accelerations that joints want.
-  void find_rows(EquationOfMotion& equation, std::span<const double> tracked);
+  // Finds the conditions of guided soles, with the equation's bias. `tracked`: the accelerations that joints want. Of
+  // the hinges that stopped at an end, those that would go on outward stay there.
+  void find_rows(EquationOfMotion& equation, std::span<const double> tracked, std::span<const DofEnd> ends = {});
   // The sole in the air whose leg has this degree of freedom; -1 for others.
   int swinging(int dof) const;
   void ask_less(int sole, double share, std::span<const double> acceleration);
@@ -62,6 +63,7 @@ class FootContacts {
  private:
   bool is_planned(int sole) const { return (planned(frame_) >> sole & 1) != 0; }
   const Sole& sole(int index) const { return figure_->soles[static_cast<std::size_t>(index)]; }
+  void find_rows_with(const EquationOfMotion& equation, std::span<const int> still_dofs);
   void find_planted();
   Bearing bearing(int index, const DynamicsScratch& dynamics) const;
   LedSole led_at(int index, double frame) const;
@@ -80,6 +82,8 @@ class FootContacts {
   std::vector<LedSole> led_;
   std::vector<double> passive_, moved_;  // scratch of ask_less
   std::vector<double> middle_;           // velocities of the present, for find_rows
+  std::vector<double> probe_;            // scratch of find_rows
+  std::vector<int> still_;               // degrees of freedom that are not accelerated
   SupportRows support_;
   ResponseScratch response_;
   std::vector<double> change_;  // scratch of stop

@@ -66,6 +66,7 @@ class Simulation {
     s_.equation.begin(figure_, moving_start(body_, target_, tick_s_));
     s_.standing.begin(figure_, balance_, tick_s_);
     s_.loose.begin(tick_s_);
+    s_.leg_stops.clear();
     s_.bodies.begin(character_, figure_);
     s_.contacts.lead_all();
     s_.equation.place();
@@ -84,10 +85,13 @@ class Simulation {
     return loads_kg > kUnfelt * (figure.body.mass_kg() - loads_kg);
   }
 
-  bool leg_overbends() const {
+  std::span<const double> target_coords() const {
     const auto count = at(motion_.coord_count);
-    const std::span target = std::span(motion_.response.target_coords).subspan(at(frame_) * count, count);
-    return overbends(character_, body_, s_.contacts.feet().stands_by_dof(), target, state_);
+    return std::span<const double>(motion_.response.target_coords).subspan(at(frame_) * count, count);
+  }
+
+  bool leg_overbends() const {
+    return overbends(character_, body_, s_.contacts.feet().stands_by_dof(), target_coords(), state_);
   }
 
   bool is_dynamic() const { return setup_.mode == Mode::dynamic; }
@@ -96,6 +100,7 @@ class Simulation {
     s_.contacts.release();
     s_.standing.let_go();
     s_.loose.let_go();
+    s_.leg_stops.clear();
   }
 
   void strike(const Impact& blow) {
@@ -180,10 +185,13 @@ class Simulation {
     if (!s_.loose.is_loose() && is_disturbed() && leg_overbends()) let_go();
     // Without a sole on the ground the rest of the figure may touch it.
     if (!s_.loose.is_loose() && s_.contacts.has_soles() && s_.contacts.planned(frame_) == 0) let_go();
-    if (!s_.loose.is_loose() && !s_.standing.stand(s_.equation, s_.contacts, s_.tracked, s_.record, s_.actuation))
-      let_go();
+    if (!s_.loose.is_loose() && !stand()) let_go();
     if (s_.loose.is_loose()) s_.loose.fall(s_.equation, s_.tracked, s_.actuation);
     s_.record.control(s_.standing.added(), 1.0 / setup_.ticks_per_frame);
+  }
+
+  bool stand() {
+    return s_.standing.stand(s_.equation, s_.contacts, s_.tracked, s_.leg_stops.at_ends(), s_.record, s_.actuation);
   }
 
   // Planned soles that lie flat and still take the weight again, if it is above them.
@@ -216,7 +224,14 @@ class Simulation {
 
   void stop_joints() {
     if (is_disturbed()) s_.bodies.stop(s_.equation, tick_s_, state_.velocity);
+    s_.leg_stops.clear();
+    if (is_dynamic() && is_disturbed() && !s_.contacts.feet().none()) stop_legs();
     stop_at_ends(character_, body_, s_.contacts.feet().stands_by_dof(), tick_s_, state_);
+  }
+
+  void stop_legs() {
+    s_.leg_stops.find_hinges(character_, body_, s_.contacts.feet().stands_by_dof(), target_coords());
+    s_.leg_stops.stop(s_.contacts.support(), s_.contacts.sole_count(), s_.actuation.forces[1], tick_s_, s_.equation);
   }
 
   void move_loosely(const SpatialForce& momentum) {

@@ -6,6 +6,7 @@
 
 #include "generator/dynamics/foot_contacts.h"
 #include "generator/dynamics/impact_response.h"
+#include "generator/dynamics/leg_stops.h"
 #include "generator/dynamics/loose_motion.h"
 #include "generator/dynamics/body_contacts.h"
 #include "generator/dynamics/recorder.h"
@@ -37,6 +38,7 @@ struct SimulationScratch {
   LooseMotion loose;
   BodyContacts bodies;
   ImpactResponse impact;
+  LegStops leg_stops;
   Recorder record;
   std::vector<double> tracked;          // wanted accelerations of tracking, by degree of freedom
   Actuation actuation;                  // actuation of this tick

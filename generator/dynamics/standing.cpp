@@ -50,8 +50,8 @@ Balance Standing::balance(const EquationOfMotion& equation, std::span<const doub
 }
 
 bool Standing::stand(EquationOfMotion& equation, FootContacts& contacts, std::span<const double> wanted,
-                     Recorder& record, Actuation& actuation) {
-  contacts.find_rows(equation, wanted);
+                     std::span<const DofEnd> ends, Recorder& record, Actuation& actuation) {
+  contacts.find_rows(equation, wanted, ends);
   bool is_strong = false, can_try = true;
   zmp_m_ = Vec3(0.0), has_zmp_ = false, spared_.clear(), asked_ = 0;
   ease_.assign(contacts.ease().begin(), contacts.ease().end());

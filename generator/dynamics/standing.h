@@ -35,8 +35,8 @@ class Standing {
 
   // Changes the wanted accelerations so that the figure stands, with their forces and efforts; needs find_mass. Returns
   // true if the ground can hold the figure: its zero moment point neither is far outside nor stays outside.
-  bool stand(EquationOfMotion& equation, FootContacts& contacts, std::span<const double> wanted, Recorder& record,
-             Actuation& actuation);
+  bool stand(EquationOfMotion& equation, FootContacts& contacts, std::span<const double> wanted,
+             std::span<const DofEnd> ends, Recorder& record, Actuation& actuation);
 
   // Returns true if the figure could stand on the soles: its capture point is above them. Needs find_mass.
   bool could_stand(const EquationOfMotion& equation, const FootContacts& contacts);

@@ -62,10 +62,13 @@ void project(std::span<const double> ease, std::span<const double> wanted, Suppo
 }  // namespace
 
 void support_rows(const Multibody& body, std::span<const LedSole> feet, std::span<const double> velocity,
-                  double frequency_rad_s, double late_s, const DynamicsScratch& dynamics, SupportRows& support) {
-  support.count = 6 * static_cast<int>(feet.size());
+                  std::span<const int> still_dofs, double frequency_rad_s, double late_s,
+                  const DynamicsScratch& dynamics, SupportRows& support) {
+  support.count = static_cast<int>(6 * feet.size() + still_dofs.size());
   support.columns.assign(velocity.size() * at(support.count), 0.0);
-  support.wanted.resize(at(support.count));
+  support.wanted.assign(at(support.count), 0.0);
+  for (std::size_t k = 0; k < still_dofs.size(); ++k)
+    support.columns[at(still_dofs[k] * support.count) + 6 * feet.size() + k] = 1.0;
   for (std::size_t f = 0; f < feet.size(); ++f) {
     const Placement& link = dynamics.world[at(feet[f].link)];
     const Vec3 sole_m = link.origin_m + link.rotation * feet[f].link_from_sole.p_m;

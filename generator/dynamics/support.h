@@ -9,6 +9,12 @@
 
 namespace contort {
 
+// A hinge at an end of its range, outward: 1 or -1.
+struct DofEnd {
+  int dof = 0;
+  double out = 1.0;
+};
+
 // The motion of a sole: its pose, and its velocity (m/s, rad/s, world axes).
 struct SoleMotion {
   Rigid world_from_sole;
@@ -25,8 +31,8 @@ struct LedSole {
 };
 
 // The conditions of guided soles on accelerations: J a = wanted, six rows for each foot (linear at the sole, then
-// angular; world). J is stored by columns, because most are 0: a degree of freedom moves only feet below it. The caller
-// owns it and reuses its memory.
+// angular; world), and rows of single degrees of freedom. J is stored by columns, because most are 0: a degree of
+// freedom moves only feet below it. The caller owns it and reuses its memory.
 struct SupportRows {
   int count = 0;                        // rows
   std::vector<double> columns;          // dof_count x count: J transposed
@@ -44,9 +50,11 @@ struct SupportRows {
 // The rows at the pose and velocities of an inverse_dynamics. Soles that are off their place return as by a critically
 // damped spring of this frequency (J. Baumgarte, "Stabilization of constraints and integrals of motion in dynamical
 // systems", 1972). Rates of semi-implicit Euler are half a tick old (`late_s`), and `velocity` is that of the present.
-// Without this distinction a foot that swings fast comes centimetres off its path.
+// Without this distinction a foot that swings fast comes centimetres off its path. After the rows of the feet there is
+// one for each of `still_dofs`: it is not accelerated.
 void support_rows(const Multibody& body, std::span<const LedSole> feet, std::span<const double> velocity,
-                  double frequency_rad_s, double late_s, const DynamicsScratch& dynamics, SupportRows& support);
+                  std::span<const int> still_dofs, double frequency_rad_s, double late_s,
+                  const DynamicsScratch& dynamics, SupportRows& support);
 
 // Computes out = J x.
 void soles_moved_by(const SupportRows& support, std::span<const double> x, std::span<double> out);

@@ -89,7 +89,7 @@ class Tick {
   void find_rows() {
     const std::vector<double> none(size(), 0.0);
     inverse_dynamics(figure.body, state.velocity, none, kGravity_m_s2, dynamics, bias);
-    support_rows(figure.body, led, state.velocity, 15.0, 0.0, dynamics, support);
+    support_rows(figure.body, led, state.velocity, {}, 15.0, 0.0, dynamics, support);
     prepare_projection(ease, support);
   }
 };

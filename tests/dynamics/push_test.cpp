@@ -69,6 +69,24 @@ TEST(Pushes, AnArmThatTheTrunkHasStoppedComesBackInTime) {
   }
 }
 
+// The elbow of a paw that stands comes to its end: it stops there, and the leg's other joints bend instead.
+TEST(Pushes, AStandingLegWithSpareJointsBearsABlowOnIt) {
+  Spec spec;
+  spec.character.name = "quadruped";
+  spec.dynamics.mode = Mode::dynamic;
+  spec.hold_frames = 70;
+  for (const bool laden : {false, true}) {
+    if (laden) spec.character.attachments = {{"backpack", "trunk", "back"}};
+    for (const char* slot : {"leg_fore_left", "leg_fore_right", "leg_hind_left", "leg_hind_right"})
+      for (int k = 0; k < 8; ++k) {
+        const det::SinCos way = det::sincos(k * kPi / 4.0);
+        const Vec3 blow_N_s(9.0 * way.cos, 4.0, 9.0 * way.sin);
+        spec.dynamics.impacts = {{10, slot, "", Vec3(0.0), blow_N_s}};
+        EXPECT_EQ(broken_in(*build_stage(spec, stock_library())), "") << slot << " " << k << " " << laden;
+      }
+  }
+}
+
 // A joint that cannot hold the load is told also after a touch that moves the figure by 7 mm/s.
 TEST(Pushes, AWeakBlowHidesNoOverload) {
   Spec spec;

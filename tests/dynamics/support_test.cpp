@@ -68,7 +68,7 @@ TEST(Support, ProjectedAccelerationsKeepTheFeet) {
       SupportRows support;
       std::vector<double> none(state.velocity.size(), 0.0), forces(state.velocity.size());
       inverse_dynamics(body, state.velocity, none, kGravity_m_s2, scratch, forces);
-      support_rows(body, feet_of(character, world), state.velocity, 15.0, 0.0, scratch, support);
+      support_rows(body, feet_of(character, world), state.velocity, {}, 15.0, 0.0, scratch, support);
       std::vector<double> acceleration = state.acceleration;
       std::vector<double> ease(acceleration.size(), 1.0);
       std::fill_n(ease.begin(), kRootDofs, 1e3);
@@ -133,7 +133,7 @@ class Squat {
       place(body_, state_.root, state_.coords, scratch_);
       std::vector<double> none(state_.velocity.size(), 0.0), forces(state_.velocity.size());
       inverse_dynamics(body_, state_.velocity, none, 0.0, scratch_, forces);
-      support_rows(body_, feet_, state_.velocity, 15.0, 0.0, scratch_, support_);
+      support_rows(body_, feet_, state_.velocity, {}, 15.0, 0.0, scratch_, support_);
       std::vector<double> ease(acceleration.size(), 1.0);
       std::fill_n(ease.begin(), kRootDofs, 1e3);
       prepare_projection(ease, support_);
