@@ -38,7 +38,8 @@ void add_lifts(const ContactPlan& plan, int sole, std::vector<FootLift>& lifts) 
 // The time in which a foot is not flat and still on the ground: it is lifted, or a blow turns it where it stands.
 struct Unrest {
   FootLift of;
-  int airborne = 0;  // frames
+  int airborne = 0;    // frames
+  bool stood = false;  // before
 };
 
 bool is_still(const ContactPlan& plan, int frame, int sole) {
@@ -48,15 +49,26 @@ bool is_still(const ContactPlan& plan, int frame, int sole) {
          rotation_angle(glm::conjugate(now.q) * then.q) < kStill_rad;
 }
 
+// The place where a foot lands after a frame. One that is still in the air at the end of a motion would come back, if the
+// figure goes nowhere meanwhile.
+Rigid landing_place(const ContactPlan& plan, const Motion& motion, const FootLift& lift, int frame) {
+  if (frame + 1 < plan.frame_count()) return plan.sole(frame + 1, lift.sole);
+  const bool leaves = is_step(motion.root[at(std::max(0, lift.first - 1))], motion.root[at(frame)]);
+  return leaves ? plan.sole(frame, lift.sole) : lift.from;
+}
+
 // Adds the unrest of one sole. Two times of it that follow each other soon count as one.
-void add_unrest(const ContactPlan& plan, int sole, double between, std::vector<Unrest>& all) {
+void add_unrest(const ContactPlan& plan, const Motion& motion, int sole, std::vector<Unrest>& all) {
+  const double between = kBetween_s * motion.rate_hz;
   const std::size_t first = all.size();
   for (int f = 0; f < plan.frame_count(); ++f) {
     if (is_still(plan, f, sole)) continue;
-    if (all.size() == first || f - all.back().of.last > between)
-      all.push_back({{sole, f, f, plan.sole(std::max(0, f - 1), sole), {}}, 0});
+    if (all.size() == first || f - all.back().of.last > between) {
+      const int before = std::max(0, f - 1);
+      all.push_back({{sole, f, f, plan.sole(before, sole), {}}, 0, plan.airborne(before, sole) == 0});
+    }
     Unrest& now = all.back();
-    now.of.last = f, now.of.to = plan.sole(std::min(f + 1, plan.frame_count() - 1), sole);
+    now.of.last = f, now.of.to = landing_place(plan, motion, now.of, f);
     now.airborne += plan.airborne(f, sole) != 0 ? 1 : 0;
   }
 }
@@ -81,7 +93,7 @@ std::vector<FootLift> too_many(std::vector<Unrest> all) {
   for (const Unrest& one : all) {
     const bool stands_alone = std::ranges::any_of(
         kept, [&](const FootLift& other) { return other.sole != one.of.sole && overlap(one.of, other); });
-    if (stands_alone && comes_back(one.of))
+    if (stands_alone && one.stood && comes_back(one.of))
       left_out.push_back(one.of);
     else if (one.airborne > 0)
       kept.push_back(one.of);
@@ -104,7 +116,7 @@ void keep_enough_feet(const Character& character, std::span<const Leg> legs, con
   std::vector<Rigid> world(character.joints().size());
   std::vector<Unrest> all;
   for (int sole = 0; sole < static_cast<int>(legs.size()); ++sole)
-    add_unrest(plan, sole, kBetween_s * motion.rate_hz, all);
+    add_unrest(plan, motion, sole, all);
   for (const FootLift& lift : too_many(std::move(all)))
     for (int f = lift.first; f <= lift.last; ++f) {
       forward_kinematics(character, motion.root[at(f)], motion.row(f), world);

@@ -25,7 +25,8 @@ constexpr int kRounds = 2;
 constexpr double kRise_s = 0.022;  // from rest to the greatest speed
 constexpr double kCoast = 0.35;   // of its last step: the way of a joint that stops as soon as it can
 constexpr std::array kCoasts = {kCoast, 0.6, 0.8};
-constexpr double kFarStep = 0.2;       // of a joint's greatest step in a frame
+constexpr double kFarStep = 0.05;      // of a joint's greatest step in a frame
+constexpr double kFarWay_m = 0.005;    // of a body in a frame
 constexpr std::array kBetween = {0.25, 0.5, 0.75};
 constexpr double kWithMass = 2.0;  // of the acceleration at ease: what is more is a jolt (soft_joints.h)
 constexpr double kLifted = 0.7;    // of a joint's greatest speed, while a foot is lifted
@@ -104,7 +105,9 @@ struct Clearance::Case {
     range.gap_m = gap_m;
     return place(), room.room_m(part, world, range);
   }
-  bool has_room(double least_m) { return place(), room.has_room(part, world, least_m, gap_m); }
+  bool has_room(double least_m, double twins = 0.0) {
+    return place(), room.has_room(part, world, least_m, gap_m, twins);
+  }
 
   // Joints of the limb, and of legs that it carries and that stay where they stand.
   template <class Test>
@@ -138,13 +141,16 @@ struct Clearance::Case {
     return is_clear_there;
   }
   // Returns true if the limb is clear on its way from the frame before, if it goes so far that it could pass through
-  // something.
+  // something. Limbs of the same kind that have moved already go their way meanwhile.
   bool is_clear_between() {
-    if (all_joints([&](int j) { return length(step_of(j)) <= kFarStep * greatest_step(j); })) return true;
+    const double twins_way_m = room.twins_way_m(part, world);
+    if (twins_way_m > 0.0 && !has_room(-kTooNear_m, 1.0)) return false;
+    const auto stays_near = [&](int j) { return length(step_of(j)) <= kFarStep * greatest_step(j); };
+    if (twins_way_m < kFarWay_m && all_joints(stays_near)) return true;
     for (const int p : limb.parts) copy_part(character, at(p), shown, spare);
     const bool is_clear_there = std::ranges::all_of(kBetween, [&](double share) {
       for (const int p : limb.parts) blend_part(character, at(p), past.before, spare, share, shown);
-      return has_room(-kTooNear_m);
+      return has_room(-kTooNear_m, share);
     });
     for (const int p : limb.parts) copy_part(character, at(p), spare, shown);
     place();

@@ -143,15 +143,20 @@ bool LimbRoom::has_grip(int limb) const {
          });
 }
 
+// Between two places, for a share of the way.
+static Rigid part_way(const Rigid& from, const Rigid& to, double share) {
+  return share == 1.0 ? to : Rigid{slerp_short(from.q, to.q, share), from.p_m + share * (to.p_m - from.p_m)};
+}
+
 // Most bodies are where they were in the look before. Their solids are placed when they are first asked for. A body of
-// another limb of the same kind is where it was before this frame.
-void LimbRoom::begin_look(int limb, std::span<const Rigid> world) {
-  const int kind = limb >= 0 ? kind_[at(limb)] : -1;
+// another limb of the same kind is on its way from where it was before this frame.
+void LimbRoom::begin_look(int limb, std::span<const Rigid> world, double twins) {
   const std::span<const Body> bodies = character_->bodies();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const int other = limb_of_body_[b];
-    const bool is_twin = other >= 0 && other != limb && kind_[at(other)] == kind;
-    const Rigid& now = is_twin ? before_[at(bodies[b].joint)] : world[at(bodies[b].joint)];
+    const Rigid &then = world[at(bodies[b].joint)], &before = before_[at(bodies[b].joint)];
+    Rigid now = then;
+    if (is_twin(limb, limb_of_body_[b]))
+      now = twins == 0.0 || before == then ? before : part_way(before, then, twins);
     if (now == placed_at_[b]) continue;
     placed_at_[b] = now, has_solids_[b] = 0;
     ball_world_m_[b] = now * ball_center_m_[b];
@@ -233,6 +238,20 @@ double LimbRoom::off_obstacles_m(int body, const Rigid& world_from_body, double 
   return least;
 }
 
+bool LimbRoom::is_twin(int limb, int other) const {
+  return limb >= 0 && other >= 0 && other != limb && kind_[at(other)] == kind_[at(limb)];
+}
+
+double LimbRoom::twins_way_m(std::size_t part, std::span<const Rigid> world) const {
+  double most = 0.0;
+  for (std::size_t b = 0; b < limb_of_body_.size(); ++b) {
+    const std::size_t joint = at(character_->bodies()[b].joint);
+    if (!is_twin(limb_of_[part], limb_of_body_[b]) || world[joint] == before_[joint]) continue;
+    most = std::max(most, length(world[joint] * ball_center_m_[b] - before_[joint] * ball_center_m_[b]));
+  }
+  return most;
+}
+
 std::size_t LimbRoom::part_of(int body) const {
   return at(character_->joint(character_->bodies()[at(body)].joint).part);
 }
@@ -250,7 +269,7 @@ double LimbRoom::Pair::band_below(double room_m) const { return std::min(kRoomBa
 double LimbRoom::apart_m(std::size_t part, std::span<const Rigid> world, const RoomRange& range) {
   const int limb = limb_of_[part];
   double least = range.high_m;
-  begin_look(limb, world);
+  begin_look(limb, world, range.twins);
   std::vector<Pair>& pairs = pairs_[at(limb)];
   for (std::size_t i = 0; i < pairs.size() && !(least < range.low_m); ++i) {
     const double band_m = pairs[i].band_below(least);

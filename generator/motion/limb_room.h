@@ -38,6 +38,7 @@ struct RoomRange {
   double high_m = kRoomBand_m;  // <= kRoomBand_m
   double gap_m = 1.0;  // gap that bodies of the figure must keep, or their gap at rest if that is smaller; never more
                        // than a comfortable gap
+  double twins = 0.0;  // how far limbs of the same kind are on their way in this frame: 0 before it, 1 after it
 };
 
 // A hand, given by the joint that carries it and everything beyond, and the body of the object; -1: nothing is held.
@@ -77,9 +78,13 @@ class LimbRoom {
   double apart_m(std::size_t part, std::span<const Rigid> world, const RoomRange& range = {});
 
   // Returns true if room_m() is at least this, up to 0.08 m, with this gap between bodies of the figure.
-  bool has_room(std::size_t part, std::span<const Rigid> world, double least_m = -kTooNear_m, double gap_m = 1.0) {
-    return room_m(part, world, {least_m, least_m, gap_m}) >= least_m;
+  bool has_room(std::size_t part, std::span<const Rigid> world, double least_m = -kTooNear_m, double gap_m = 1.0,
+                double twins = 0.0) {
+    return room_m(part, world, {least_m, least_m, gap_m, twins}) >= least_m;
   }
+
+  // The longest way, m, that the centre of any body of another limb of the same kind has already gone in this frame.
+  double twins_way_m(std::size_t part, std::span<const Rigid> world) const;
 
   // Returns the same as room_m(), with joints as in `world` and a hand that holds an object; without ground and feet.
   double room_beside_m(std::size_t part, const HeldObject& held, std::span<const Rigid> world);
@@ -114,7 +119,8 @@ class LimbRoom {
   void begin_bodies();
   void begin_pairs();
   void begin_ground();
-  void begin_look(int limb, std::span<const Rigid> world);
+  bool is_twin(int limb, int other) const;
+  void begin_look(int limb, std::span<const Rigid> world, double twins = 0.0);
   void place_solids(int body);
   bool are_near(const Pair& pair, double band_m) const;
   bool is_held(const Pair& pair) const;

@@ -224,14 +224,25 @@ TEST(Possible, ARunOnAShortWayIsOnlyAsFastAsItsStartAndStopAllow) {
   }
 }
 
-// Both feet are lifted in the air by a pose: no plan can hold that, so the figure sits down.
-TEST(Possible, AFigureThatLiftsBothFeetFallsOntoTheGroundAndNotThroughIt) {
+Spec with_both_legs_raised() {
   Spec spec;
   spec.character.name = "human";
   spec.hold_frames = 120;
   spec.dynamics.mode = Mode::dynamic;
   spec.sequences = {sequence({use("pose", "leg_left", 0, 120, {{"hip_flex_deg", 80.0}, {"knee_deg", 90.0}}),
                               use("pose", "leg_right", 0, 120, {{"hip_flex_deg", 80.0}, {"knee_deg", 90.0}})})};
+  return spec;
+}
+
+// Both feet are lifted in the air by a pose: no plan can hold that, so the figure sits down.
+TEST(Possible, AFigureThatLiftsBothFeetKeepsOneOnTheGround) {
+  const Motion motion = generate(built_stage(with_both_legs_raised()));
+  for (const Stance& stance : motion.response.stances) EXPECT_EQ(stance.footing, Footing::standing);
+}
+
+TEST(Possible, AFigureThatIsThrownUpFallsOntoTheGroundAndNotThroughIt) {
+  Spec spec = with_both_legs_raised();
+  spec.dynamics.impacts = {{20, "waist", "", Vec3(0.0), Vec3(0.0, 300.0, 30.0)}};
   const Motion motion = generate(built_stage(spec));
   EXPECT_EQ(motion.response.stances.back().footing, Footing::fallen);
   for (std::size_t f = 0; f < motion.root.size(); ++f) ASSERT_GT(motion.root[f].p_m.y, 0.0) << f;

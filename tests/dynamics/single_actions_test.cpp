@@ -257,5 +257,22 @@ TEST(SingleActions, AnklesStayInTheirRangesInSquatsOnSlopes) {
       }
 }
 
+// Neither leg lands before the end, so that the figure would float: with mass, one foot stays where it stands.
+TEST(SingleActions, AFigureWithMassStandsOnOneLegWhileBothAreToReach) {
+  Spec spec;
+  spec.character.name = "mech";
+  spec.dynamics.mode = Mode::tracking;
+  spec.sequences = {sequence({use("reach", "leg_left", 10, 90, {{"target_m", Vec3(0.73, 1.5, 0.39)}}),
+                              use("reach", "leg_right", 25, 75, {{"target_m", Vec3(-0.9, 1.13, 0.36)}})})};
+  for (ActionUse& action : spec.sequences[0].clips[0].actions) action.blend_in_frames = -1;
+  spec.sequences[0].clips[0].actions[0].blend_out_frames = 0;
+  spec.sequences[0].clips[0].actions[1].blend_out_frames = 0;
+  const Result<Stage> stage = build_stage(spec, stock_library());
+  ASSERT_TRUE(stage) << to_line(stage.issue());
+  EXPECT_EQ(broken_in(*stage), "");
+  const Motion motion = generate(*stage);
+  for (const Stance& stance : motion.response.stances) EXPECT_NE(stance.planned, 0);
+}
+
 }  // namespace
 }  // namespace contort

@@ -213,28 +213,22 @@ TEST(ShrinkPlanted, SwapsThatDoNotMatterVanishAndTheOneThatDoesStays) {
   EXPECT_EQ(least.spec.character.parts, needed);
 }
 
+// Each arm slides to the middle; only together do they meet.
 TEST(ShrinkPlanted, TwoActionsThatNeedEachOtherBothStay) {
-  // Each hand reaches across; only together do the forearms meet.
-  Spec spec = spec_of({pose_use("leg_left", {{"knee_deg", 40.0}})});
-  for (const char* arm : {"arm_left", "arm_right"}) {
-    ActionUse reach;
-    reach.action = "reach";
-    reach.slot = arm;
-    reach.params["target_m"] = Vec3(0.0, 1.25, 0.35);
-    spec.sequences[0].clips[0].actions.push_back(reach);
-  }
-  const Result<Stage> stage = build_stage(spec, stock_library());
-  ASSERT_TRUE(stage) << to_line(stage.issue());
-  const Evaluation evaluation = StageEvaluator().run(*stage);
-  const Finding* clash = nullptr;
-  for (const Finding& f : evaluation.findings)
-    if (f.subject.find("_left") != std::string::npos && f.subject.find("_right") != std::string::npos) clash = &f;
-  ASSERT_NE(clash, nullptr);
-  const Case least = shrunk(failing_case(spec, clash->check, clash->subject), config(0.9));
+  const Library library = small::library();
+  const char* const arms = "arm_left/slide ~ arm_right/slide";
+  const auto slides = [](const char* slot) { return pose_use(slot, {{"slide_m", -0.215}}); };
+  for (const char* slot : {"arm_left", "arm_right"})
+    EXPECT_EQ(broken_in(*build_stage(spec_of({slides(slot)}, "small"), library)).find(arms), std::string::npos) << slot;
+  Spec spec = spec_of({slides("arm_left"), slides("arm_right")}, "small");
+  spec.sequences[0].clips.push_back({"", 70, 0, 1.0, {pose_use("arm_left", {{"lift_deg", 20.0}})}});
+  const Case least = shrunk(failing_case(spec, "self_collision", arms, library), config(0.9), library);
   ASSERT_EQ(least.spec.sequences.size(), 1U);
   ASSERT_EQ(least.spec.sequences[0].clips.size(), 1U);
-  for (const ActionUse& use : least.spec.sequences[0].clips[0].actions) EXPECT_EQ(use.action, "reach");
-  EXPECT_EQ(least.spec.sequences[0].clips[0].actions.size(), 2U);
+  const std::vector<ActionUse>& actions = least.spec.sequences[0].clips[0].actions;
+  ASSERT_EQ(actions.size(), 2U);
+  EXPECT_EQ(actions[0].slot, "arm_left");
+  EXPECT_EQ(actions[1].slot, "arm_right");
 }
 
 // Both arms slide together until they overlap by 3 cm; with the broken part their places are NaN. A NaN failure must

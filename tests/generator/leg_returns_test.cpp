@@ -137,5 +137,20 @@ TEST(TrunkOverFeet, GoesNoFartherFromPawsThatDoNotReach) {
   EXPECT_EQ(broken_in(stage), "");
 }
 
+// Both legs move in the same frame. Each one kept its distance from where the other had been, but of 96 such pairs of
+// blows 29 put a foot through the other one, most of them between two frames.
+TEST(LegReturns, LegsThatAreHitTogetherDoNotPassThroughEachOther) {
+  for (const double inward_deg : {-150.0, -110.0, -60.0, -30.0})
+    for (const double other_deg : {30.0, 60.0, 110.0, 150.0})
+      for (const int later : {0, 5, 10}) {
+        const std::vector<ActionUse> blows = {blow("leg_left", 0, 40, inward_deg),
+                                              blow("foot_right", later, 40, other_deg)};
+        std::vector<ActionUse> hard = blows;
+        for (ActionUse& hit : hard) hit.params["strength_deg"] = 50.0, hit.blend_in_frames = -1;
+        EXPECT_EQ(broken_in(fixtures::stage_of({sequence(hard)}, 10, fixtures::shared_human())), "")
+            << inward_deg << " " << other_deg << " " << later;
+      }
+}
+
 }  // namespace
 }  // namespace contort
