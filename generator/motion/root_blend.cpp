@@ -9,6 +9,7 @@ namespace contort {
 namespace {
 
 constexpr double kLeftBent = 0.005;  // of the shortest leg: an easily bent knee lets a foot that is late still land
+constexpr double kReaches_m = 1e-6;  // hips that are no higher than legs reach stay as they are
 
 double shortest_leg_m(std::span<const Leg> legs) {
   double least = legs.front().length_m;
@@ -59,7 +60,7 @@ Rigid blend_root(const LegsBelow& below, const Rigid& a, const Rigid& b, double 
 }
 
 double lower_to_reach_m(const LegsBelow& below, Rigid& root) {
-  if (!(below.short_m > 0.0)) return 0.0;
+  if (!(below.short_m > 0.0) || root.p_m.y <= straight_at_m(below, root.p_m, below.short_m) + kReaches_m) return 0.0;
   const double bent_m = kLeftBent * shortest_leg_m(below.legs) - most_bent_m(below.legs);
   const double short_m = below.short_m + std::clamp(bent_m, 0.0, below.short_m);
   const double lower_m = std::max(0.0, root.p_m.y - straight_at_m(below, root.p_m, short_m));

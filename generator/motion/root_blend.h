@@ -22,7 +22,8 @@ struct LegsBelow {
 // from above that.
 Rigid blend_root(const LegsBelow& below, const Rigid& a, const Rigid& b, double weight);
 
-// Lowers a root to where legs that stand apart are almost straight, and returns by how much.
+// Lowers a root that is higher than legs that stand apart reach to where they are almost straight, and returns by how
+// much.
 double lower_to_reach_m(const LegsBelow& below, Rigid& root);
 
 // Returns the root of a posture that is moved from one place to another, at the same height over the ground.

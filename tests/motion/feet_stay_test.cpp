@@ -129,5 +129,22 @@ TEST(FeetStay, WhereATrunkTurnsOverACourse) {
     }
 }
 
+// The hips of a figure on a slope are as low as its lower foot needs. They were 5 mm lower after a bend, and a bend that
+// is cut went there within a frame.
+TEST(FeetStay, HipsOnASlopeAreAsHighAfterABendAsBefore) {
+  for (const char* character : {"human", "mech"})
+    for (const double slope_deg : {3.0, 5.0, 8.0})
+      for (const int blend_frames : {1, 10}) {
+        Spec spec = spec_of(character, {legs(character, "crouch", 10, 40, blend_frames, {{"share", 0.2}})});
+        spec.environment.ground = SlopeGround{.slope_deg = slope_deg, .heading_deg = 70.0};
+        spec.sequences[0].clips[0].actions[0].blend_in_frames = 10;
+        spec.hold_frames = 10;
+        const Stage stage = stage_of(spec);
+        const Motion motion = generate(stage);
+        EXPECT_NEAR(motion.root.back().p_m.y, motion.root.front().p_m.y, 1e-6) << character << " " << slope_deg;
+        EXPECT_EQ(blend_frames > 1 ? broken_in(stage) : "", "") << character << " " << slope_deg;
+      }
+}
+
 }  // namespace
 }  // namespace contort
