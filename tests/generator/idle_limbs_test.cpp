@@ -71,5 +71,18 @@ TEST(IdleLimbs, AnArmThatIsPosedAfterAReachMakesWayForBodies) {
   EXPECT_TRUE(std::ranges::any_of(unmet, [](const UnmetRequest& one) { return one.why == Shortfall::clearance; }));
 }
 
+// The trunk leans to the side and keeps the hand near the thigh; the wrist's pose alone has room. The hand went 2.5 cm
+// into the thigh.
+TEST(IdleLimbs, AHandInAPoseMakesWayForTheThighThatATrunkCarriesItTo) {
+  ActionUse pose = use("pose", "hand_right", 21, 85, {{"wrist_flex_deg", -26.0}, {"wrist_dev_deg", -13.0}});
+  ActionUse lean = use("direction", "torso", 13, 23, {{"azimuth_deg", 153.0}, {"elevation_deg", 46.0}});
+  pose.blend_in_frames = lean.blend_in_frames = ActionUse().blend_in_frames;
+  lean.speed = 0.5;
+  const Stage stage = scene("human", {pose, lean}, 10);
+  EXPECT_EQ(broken_in(stage), "");
+  EXPECT_EQ(broken_in(scene("human", {pose}, 10)), "");
+  EXPECT_TRUE(intent_of(scene("human", {pose}, 10)).unmet.empty());
+}
+
 }  // namespace
 }  // namespace contort
