@@ -33,10 +33,14 @@ const Rule kLabel{.text = Text::label, .may_be_empty = true};
 const Rule kProse{.text = Text::prose};
 const Rule kCount{.low = 0, .high = 1e9};
 
+// In the queue and in interrupts.
 int count_actions(const Spec& spec) {
   int count = 0;
-  for (const SequenceDesc& sequence : spec.sequences)
+  const auto add = [&](const SequenceDesc& sequence) {
     for (const ClipDesc& clip : sequence.clips) count += static_cast<int>(clip.actions.size());
+  };
+  for (const SequenceDesc& sequence : spec.sequences) add(sequence);
+  for (const InterruptDesc& interrupt : spec.interrupts) add(interrupt.sequence);
   return count;
 }
 

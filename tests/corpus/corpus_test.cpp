@@ -311,6 +311,17 @@ TEST(CorpusCost, FewerActionsThenShorterTextThenTheText) {
   EXPECT_FALSE(cheaper(bent_elbow(160), bent_elbow(160)));
 }
 
+// A sequence that shrinking moves from an interrupt into the queue costs less there, not more.
+TEST(CorpusCost, AnInterruptCostsMoreThanItsSequenceInTheQueue) {
+  Spec queued = bent_elbow(160), interrupted = bent_elbow(160);
+  queued.sequences.push_back(queued.sequences[0]);
+  InterruptDesc interrupt;
+  interrupt.sequence = queued.sequences[0];
+  interrupted.interrupts = {interrupt};
+  EXPECT_TRUE(cheaper(queued, interrupted));
+  EXPECT_FALSE(cheaper(interrupted, queued));
+}
+
 TEST(CorpusCost, FeaturesNameWhatAMinimalSpecNeeds) {
   EXPECT_EQ(features_of(bent_elbow(160)), "actions=pose clips=1 sequences=1");
   Spec spec = bent_elbow(160);
