@@ -1,8 +1,6 @@
 #include "generator/dynamics/simulate.h"
 
 #include <optional>
-#include <cstdio>
-#include <cstdlib>
 
 #include "generator/dynamics/closed_chain.h"
 #include "generator/dynamics/foot_lifts.h"
@@ -285,8 +283,6 @@ void simulate(const Character& character, const DynamicsSetup& setup, const Envi
   const BalancePlan balance = make_possible(character, setup.figure, setup.easy, plan, setup.ticks_per_frame, motion);
   plan.move_airborne(character, setup.figure, motion);
   Simulation(character, setup, environment, plan, balance, scratch, motion).run();
-  if (std::getenv("ST")) for (int f = 0; f < motion.frame_count; ++f) { const Stance& st = motion.response.stances[at(f)];
-    std::fprintf(stderr, "f%d planned %d standing %d margin %.4f zmp %.3f %.3f foot %d\n", f, (int)st.planned, (int)st.standing, st.margin_m, st.zmp_m.x, st.zmp_m.z, (int)st.footing); }
 }
 
 }  // namespace contort

@@ -1,6 +1,7 @@
-// Keeps code out of the source that gives other bits on other machines: platform maths, clocks, randomness, order. It
-// is a list of names, so it finds calls and not effects: it misses a Quat made from Euler angles, or a glm function
-// found through its arguments under a name that is not listed. The golden hashes find these.
+// Keeps code out of the source that gives other bits on other machines: platform maths, clocks, randomness, order,
+// variables of the environment. It is a list of names, so it finds calls and not effects: it misses a Quat made from
+// Euler angles, or a glm function found through its arguments under a name that is not listed. The golden hashes find
+// these.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -56,6 +57,9 @@ const Names kClockCalls = {"gettimeofday", "clock_gettime", "steady_s", "localti
 // The standard does not define their order, value or grouping.
 const Names kOrder = {"unordered_map", "unordered_set", "unordered_multimap", "unordered_multiset",
                       "hash",          "reduce",        "transform_reduce",   "execution"};
+
+// A variable of the environment would change motions on one machine and not on another.
+const Names kSurroundings = {"getenv", "secure_getenv", "setenv", "putenv", "environ"};
 
 const Names kChanceHeaders = {"random", "glm/gtc/random.hpp"};
 const Names kClockHeaders = {"chrono", "ctime", "time.h", "sys/time.h"};
@@ -146,6 +150,8 @@ std::string refusal(const Use& use, const Scope& scope) {
   if (scope.clock && ((kClock.contains(use.name) && std_name) || (kClockCalls.contains(use.name) && bare_call))) {
     return "no clock: time is a frame";
   }
+  if (scope.order && kSurroundings.contains(use.name) && (std_name || bare_call))
+    return "the environment differs from machine to machine; pass a setting";
   if (scope.order && kOrder.contains(use.name) && std_name) return "its order or value is not fixed by the standard";
   return "";
 }
@@ -230,6 +236,8 @@ TEST(Determinism, RefusesPlantedViolations) {
       {"corpus/store.cpp", "auto t = std::time(nullptr);"},
       {"corpus/store.cpp", "auto t = ::time(nullptr);"},
       {"corpus/store.cpp", "clock_gettime(CLOCK_REALTIME, &t);"},
+      {"generator/dynamics/simulate.cpp", "if (std::getenv(\"TRACE\")) print();"},
+      {"checks/judge.cpp", "const char* set = getenv(name);"},
       {"model/core/hash.cpp", "std::unordered_map<int, int> m;"},
       {"fuzz/run.cpp", "#include <unordered_set>\n"},
       {"corpus/store.cpp", "h = std::hash<std::string>{}(s);"},
