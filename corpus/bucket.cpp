@@ -33,7 +33,7 @@ const Rule kLabel{.text = Text::label, .may_be_empty = true};
 const Rule kProse{.text = Text::prose};
 const Rule kCount{.low = 0, .high = 1e9};
 
-// In the queue and in interrupts.
+// Returns the number of actions in the queue and in interrupts.
 int count_actions(const Spec& spec) {
   int count = 0;
   const auto add = [&](const SequenceDesc& sequence) {

@@ -22,7 +22,7 @@ bool carries(const Character& character, int joint, int other) {
 
 }  // namespace
 
-// Poses are taken as their authors give them (but see is_carried_into_bodies), and walking legs as their gait has them.
+// Poses are taken as their authors give them (but see loses_room_of_pose), and walking legs as their gait has them.
 bool LimbKeeper::makes_way(const Playback& playback, std::size_t p) const {
   const LayerHold& ik = s_.stacks[p].ik();
   if (ik.action >= 0) return !moves_legs(playback, ik) && !is_cut(playback, ik);
@@ -97,10 +97,10 @@ void LimbKeeper::finish(const Playback& playback, const Limb& limb) {
   s_.rules.room().hold(at(limb.parts.back()), held);
   if (use == LegUse::acts) stop_returning(limb);
   const bool lands = use == LegUse::lands && land(playback, limb);
-  if (use == LegUse::acts || (use == LegUse::lands && !lands)) keep_clear(limb, was_lifted);
+  if (use == LegUse::acts || (use == LegUse::lands && !lands)) keep_clear(limb, was_lifted, kComfortable_m);
   if (use == LegUse::idle) plant(limb);
-  if (loses_room(playback, limb)) keep_clear(limb, was_lifted);
-  if (use == LegUse::placed && is_carried_into_bodies(limb)) keep_clear(limb, was_lifted, true);
+  if (loses_room(playback, limb)) keep_clear(limb, was_lifted, kComfortable_m);
+  if (use == LegUse::placed && loses_room_of_pose(limb)) keep_clear(limb, was_lifted, kNarrow_m);
   held_off = s_.shift[at(limb.parts.back())] == Shift::held_off ? held_off + 1 : 0;
   note_stuck(limb);
   if (held_off > 0) try_again(playback, limb);
@@ -311,9 +311,10 @@ bool LimbKeeper::loses_room(const Playback& playback, const Limb& limb) {
   return loses;
 }
 
-// Returns true for an arm, head or tail in a pose that would have room if all else were as at rest, where its author has
-// seen it: what the trunk or the legs do takes the room away.
-bool LimbKeeper::is_carried_into_bodies(const Limb& limb) {
+// Returns true for an arm, head or tail in a pose that has no room here, but keeps bodies apart on a figure at rest, as
+// its author has seen it: the trunk, the legs, the ground or an obstacle take the room away.
+bool LimbKeeper::loses_room_of_pose(const Limb& limb) {
+  constexpr RoomRange kBodiesApart{.low_m = -kTooNear_m, .high_m = -kTooNear_m, .gap_m = 0.0, .twins = 1.0};
   const auto acts_by_ik = [&](int p) { return s_.stacks[at(p)].ik().action >= 0; };
   if (!limb.legs.empty() || std::ranges::any_of(limb.parts, acts_by_ik)) return false;
   const std::size_t part = at(limb.parts.back());
@@ -321,7 +322,7 @@ bool LimbKeeper::is_carried_into_bodies(const Limb& limb) {
   std::ranges::copy(stage_.character->rest_coords(), s_.between.coords.begin());
   for (const int p : limb.parts) copy_part(*stage_.character, at(p), s_.postures.shown, s_.between);
   forward_kinematics(*stage_.character, stage_.character->rest_root(), s_.between.coords, s_.rest_world);
-  return s_.rules.room().apart_m(part, s_.rest_world, {-kTooNear_m, -kTooNear_m, 0.0, 1.0}) >= -kTooNear_m;
+  return s_.rules.room().apart_m(part, s_.rest_world, kBodiesApart) >= -kTooNear_m;
 }
 
 void LimbKeeper::note_stuck(const Limb& limb) {
@@ -344,12 +345,12 @@ bool LimbKeeper::squeezes_past(const Limb& limb) const {
   });
 }
 
-void LimbKeeper::keep_clear(const Limb& limb, bool was_lifted, bool is_posed) {
+void LimbKeeper::keep_clear(const Limb& limb, bool was_lifted, double gap_m) {
   const auto part = at(limb.parts.back());
   char& squeezes = s_.squeezes[part];
   squeezes = squeezes_past(limb);
   const Clearance::LimbState state{was_lifted, is_struck(part) ? Haste::struck : Haste::at_ease,
-                                   squeezes != 0 || is_posed ? kNarrow_m : kComfortable_m};
+                                   squeezes != 0 ? kNarrow_m : gap_m};
   const Clearance::Kept kept = s_.clearance.keep(part, s_.past, state, s_.postures.shown, s_.rules.world());
   if (squeezes != 0 && s_.rules.room().has_room(part, s_.rules.world())) squeezes = 0;
   switch (kept) {

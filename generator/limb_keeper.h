@@ -77,9 +77,9 @@ class LimbKeeper {
   bool is_smooth(const Limb& limb) const;
   bool has_room_on_the_way(const Limb& limb, double gap_m, bool is_rising = false);
   void arrive(const Limb& limb);
-  void keep_clear(const Limb& limb, bool was_lifted, bool is_posed = false);
+  void keep_clear(const Limb& limb, bool was_lifted, double gap_m);
   bool loses_room(const Playback& playback, const Limb& limb);
-  bool is_carried_into_bodies(const Limb& limb);
+  bool loses_room_of_pose(const Limb& limb);
   bool squeezes_past(const Limb& limb) const;
   void note_stuck(const Limb& limb);
   void try_again(const Playback& playback, const Limb& limb);

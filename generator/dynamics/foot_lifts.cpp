@@ -38,8 +38,8 @@ void add_lifts(const ContactPlan& plan, int sole, std::vector<FootLift>& lifts) 
 // The time in which a foot is not flat and still on the ground: it is lifted, or a blow turns it where it stands.
 struct Unrest {
   FootLift of;
-  int airborne = 0;    // frames
-  bool stood = false;  // before
+  int airborne = 0;             // frames
+  bool stands_before = false;   // in the frame before
 };
 
 bool is_still(const ContactPlan& plan, int frame, int sole) {
@@ -49,8 +49,8 @@ bool is_still(const ContactPlan& plan, int frame, int sole) {
          rotation_angle(glm::conjugate(now.q) * then.q) < kStill_rad;
 }
 
-// The place where a foot lands after a frame. One that is still in the air at the end of a motion would come back, if the
-// figure goes nowhere meanwhile.
+// The place where a foot lands after a frame. A foot that is still in the air at the end of the motion counts as coming
+// back, unless the figure has walked away meanwhile.
 Rigid landing_place(const ContactPlan& plan, const Motion& motion, const FootLift& lift, int frame) {
   if (frame + 1 < plan.frame_count()) return plan.sole(frame + 1, lift.sole);
   const bool leaves = is_step(motion.root[at(std::max(0, lift.first - 1))], motion.root[at(frame)]);
@@ -93,7 +93,7 @@ std::vector<FootLift> too_many(std::vector<Unrest> all) {
   for (const Unrest& one : all) {
     const bool stands_alone = std::ranges::any_of(
         kept, [&](const FootLift& other) { return other.sole != one.of.sole && overlap(one.of, other); });
-    if (stands_alone && one.stood && comes_back(one.of))
+    if (stands_alone && one.stands_before && comes_back(one.of))
       left_out.push_back(one.of);
     else if (one.airborne > 0)
       kept.push_back(one.of);

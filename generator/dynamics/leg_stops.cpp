@@ -9,8 +9,8 @@ namespace contort {
 
 namespace {
 
-constexpr int kPassesOfStops = 3;     // a hinge that is stopped may push another one to its end
-constexpr double kAtEnd_rad = 1e-4;   // a hinge this near to its end stays there as long as it is pushed outward
+constexpr int kPassesOfStops = 3;      // a hinge that is stopped may push another one to its end
+constexpr double kAtEnd_rad = 1e-4;    // a hinge this near to its end stays there as long as it is pushed outward
 constexpr double kLeastAnswer = 1e-9;  // 1/(kg m^2): a hinge that answers less to its end is held by all others
 
 }  // namespace

@@ -128,11 +128,11 @@ class Simulation {
     s_.equation.place();
     const double frame = frame_ + static_cast<double>(index) / setup_.ticks_per_frame;
     const bool is_planted = s_.contacts.is_planted();
-    std::optional<double> since_blow_s;
-    if (is_struck() && !s_.loose.is_loose()) since_blow_s = (frame - struck_frame_) / motion_.rate_hz;
+    std::optional<double> since_impact_s;
+    if (is_struck() && !s_.loose.is_loose()) since_impact_s = (frame - struck_frame_) / motion_.rate_hz;
     // With a load that it feels, a figure may leave its target to relieve its joints, but not while it steps.
     const bool is_exact = !is_struck() && (!feels_load_ || !is_planted);
-    track(body_, target_, frame, tick_s_, {!is_planted, since_blow_s, is_exact}, state_, track_, s_.tracked);
+    track(body_, target_, frame, tick_s_, {!is_planted, since_impact_s, is_exact}, state_, track_, s_.tracked);
     frame_time_ = frame;
     s_.contacts.follow_plan(frame, s_.equation.dynamics);
     s_.standing.begin_tick(frame, is_disturbed());

@@ -9,7 +9,7 @@
 
 namespace contort {
 
-// A hinge at an end of its range, outward: 1 or -1.
+// A hinge at an end of its range; `out` is the sign of a rate that would leave the range.
 struct DofEnd {
   int dof = 0;
   double out = 1.0;

@@ -18,17 +18,17 @@ struct RootStiffness {
   double turn = 0.0;
 };
 constexpr RootStiffness kLedRoot{12.0, 12.0, 12.0};
-// These are used after a blow. Along the ground, the root comes back little faster than an inverted pendulum of its
+// These are used after an impact. Along the ground, the root comes back little faster than an inverted pendulum of its
 // height falls, sqrt(g / h), since the ground cannot move it much faster.
 constexpr RootStiffness kSoftRoot{5.0, 10.0, 6.0};
-// The stiffness of joints is low just after a blow. It is higher later, and then exceeds the stiffness of undisturbed
-// motion: an arm that another body has stopped reaches its target in time.
+// The stiffness of joints is low just after an impact. Later it exceeds the stiffness of undisturbed motion, so that an
+// arm that another body has stopped reaches its target in time.
 constexpr double kSoftJointStiffness = 8.0, kSoftUntil_s = 0.3;
 constexpr double kStiffJointStiffness = 18.0, kStiffFrom_s = 0.6;
 
 double joint_stiffness(const Tracking& how) {
-  if (!how.since_blow_s) return kJointStiffness;
-  const double share = (*how.since_blow_s - kSoftUntil_s) / (kStiffFrom_s - kSoftUntil_s);
+  if (!how.since_impact_s) return kJointStiffness;
+  const double share = (*how.since_impact_s - kSoftUntil_s) / (kStiffFrom_s - kSoftUntil_s);
   return kSoftJointStiffness + (kStiffJointStiffness - kSoftJointStiffness) * std::clamp(share, 0.0, 1.0);
 }
 
@@ -164,7 +164,7 @@ Ahead ahead_at(const Link& link, const TargetMotion& target, double frame, const
 // Returns how the target's joint is relative to the figure's.
 Ahead follow_joint(const Link& link, int index, const Tick& tick, const Tracking& how, const FigureState& state,
                    TargetLead& last, double* acceleration) {
-  if (how.exactly || how.since_blow_s)
+  if (how.exactly || how.since_impact_s)
     return lead_joint(link, tick, joint_stiffness(how),
                       &state.coords[static_cast<std::size_t>(link.coord)],
                       &state.velocity[static_cast<std::size_t>(link.dof)], last, acceleration);
@@ -175,8 +175,8 @@ Ahead follow_joint(const Link& link, int index, const Tick& tick, const Tracking
 
 void follow_root(const Tick& tick, const Tracking& how, const FigureState& state, TargetLead& turn, TargetLead* travels,
                  std::span<double> acceleration) {
-  if (how.root_leads || how.since_blow_s)
-    return lead_root(tick, how.since_blow_s ? kSoftRoot : kLedRoot, state, turn, travels, acceleration);
+  if (how.root_leads || how.since_impact_s)
+    return lead_root(tick, how.since_impact_s ? kSoftRoot : kLedRoot, state, turn, travels, acceleration);
   const double ahead_s = tick.horizon_to(0);
   track_root(tick.target, tick.after(ahead_s), ahead_s, state, acceleration);
 }

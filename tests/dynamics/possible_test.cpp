@@ -234,7 +234,7 @@ Spec with_both_legs_raised() {
   return spec;
 }
 
-// Both feet are lifted in the air by a pose: no plan can hold that, so the figure sits down.
+// A pose lifts both feet until the end. The ground cannot hold that, so one foot stays where it stands.
 TEST(Possible, AFigureThatLiftsBothFeetKeepsOneOnTheGround) {
   const Motion motion = generate(built_stage(with_both_legs_raised()));
   for (const Stance& stance : motion.response.stances) EXPECT_EQ(stance.footing, Footing::standing);

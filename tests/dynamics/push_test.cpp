@@ -69,8 +69,8 @@ TEST(Pushes, AnArmThatTheTrunkHasStoppedComesBackInTime) {
   }
 }
 
-// The elbow of a paw that stands comes to its end: it stops there, and the leg's other joints bend instead.
-TEST(Pushes, AStandingLegWithSpareJointsBearsABlowOnIt) {
+// The elbow of a standing paw comes to its end. It stops there, and the leg's other joints bend instead.
+TEST(Pushes, AStandingLegWithSpareJointsWithstandsAnImpactOnIt) {
   Spec spec;
   spec.character.name = "quadruped";
   spec.dynamics.mode = Mode::dynamic;
@@ -80,11 +80,22 @@ TEST(Pushes, AStandingLegWithSpareJointsBearsABlowOnIt) {
     for (const char* slot : {"leg_fore_left", "leg_fore_right", "leg_hind_left", "leg_hind_right"})
       for (int k = 0; k < 8; ++k) {
         const det::SinCos way = det::sincos(k * kPi / 4.0);
-        const Vec3 blow_N_s(9.0 * way.cos, 4.0, 9.0 * way.sin);
-        spec.dynamics.impacts = {{10, slot, "", Vec3(0.0), blow_N_s}};
+        const Vec3 impulse_N_s(9.0 * way.cos, 4.0, 9.0 * way.sin);
+        spec.dynamics.impacts = {{10, slot, "", Vec3(0.0), impulse_N_s}};
         EXPECT_EQ(broken_in(*build_stage(spec, stock_library())), "") << slot << " " << k << " " << laden;
       }
   }
+}
+
+// After the stop, the accelerations that joints want would drive the elbow on by 9 rad/s within two ticks.
+TEST(Pushes, AHingeAtItsEndStaysThereWhileItIsPushedOutward) {
+  Spec spec;
+  spec.character.name = "quadruped";
+  spec.character.attachments = {{"backpack", "trunk", "back"}};
+  spec.dynamics.mode = Mode::dynamic;
+  spec.dynamics.impacts = {{10, "leg_fore_left", "", Vec3(0.0), Vec3(5.0, 9.0, 5.5)}};
+  spec.hold_frames = 70;
+  EXPECT_EQ(broken_in(*build_stage(spec, stock_library())), "");
 }
 
 // A joint that cannot hold the load is told also after a touch that moves the figure by 7 mm/s.

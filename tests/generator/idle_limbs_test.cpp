@@ -84,5 +84,16 @@ TEST(IdleLimbs, AHandInAPoseMakesWayForTheThighThatATrunkCarriesItTo) {
   EXPECT_TRUE(intent_of(scene("human", {pose}, 10)).unmet.empty());
 }
 
+// A wall takes the room of the pose as a trunk would.
+TEST(IdleLimbs, AnArmInAPoseStopsAtAWall) {
+  ActionUse pose = use("pose", "arm_left", 0, 60, {{"shoulder_deg", Vec3(0.0, 0.0, 60.0)}});
+  pose.blend_in_frames = ActionUse().blend_in_frames;
+  EXPECT_EQ(broken_in(scene("human", {pose}, 10)), "");
+  const Stage stage = scene("human", {pose}, 10, 0.6);
+  EXPECT_EQ(broken_in(stage), "");
+  const std::vector<UnmetRequest> unmet = intent_of(stage).unmet;
+  EXPECT_TRUE(std::ranges::any_of(unmet, [](const UnmetRequest& one) { return one.why == Shortfall::clearance; }));
+}
+
 }  // namespace
 }  // namespace contort
