@@ -83,7 +83,7 @@ bool comes_back(const FootLift& lift) {
 // A foot that stays goes over to where it will stand, which is nearly the same place.
 Rigid place_in(const FootLift& lift, int frame) {
   const double way = minimum_jerk(static_cast<double>(frame - lift.first) / std::max(1, lift.last - lift.first));
-  return {slerp_short(lift.from.q, lift.to.q, way), lift.from.p_m + way * (lift.to.p_m - lift.from.p_m)};
+  return part_way(lift.from, lift.to, way);
 }
 
 // Those that leave too few feet on the ground while another foot is lifted for longer.

@@ -1,6 +1,6 @@
-// Hinges of standing legs at the ends of their ranges. All joints of such a leg follow its foot and the hips, so a hinge
-// cannot be stopped by itself: its end pushes, the soles stay, and everything else answers by its mass. A leg that has
-// more joints than its foot needs bends elsewhere then.
+// Hinges of standing legs at the ends of their ranges. All joints of such a leg follow its foot and the hips, so a
+// hinge cannot be stopped by itself: its end pushes, the soles stay, and everything else answers by its mass. A leg that
+// has more joints than its foot needs bends elsewhere then.
 #pragma once
 
 #include <span>

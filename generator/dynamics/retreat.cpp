@@ -136,7 +136,7 @@ namespace {
 // and comes down gently, over all of the way.
 Rigid lowest(const Rigid& from, const Rigid& to, double share, const Rigid& planned) {
   const double way = minimum_jerk(share), up = 4.0 * share * (1.0 - share);
-  Rigid low{slerp_short(from.q, to.q, way), from.p_m + way * (to.p_m - from.p_m)};
+  Rigid low = part_way(from, to, way);
   low.p_m.y += std::clamp(planned.p_m.y - low.p_m.y, 0.0, kLowest_m * up * up);
   return low;
 }
@@ -149,7 +149,7 @@ Rigid Retreat::sole(int frame, int sole) const {
     if (lift.of.sole != sole || lift.size == 1.0 || frame < lift.of.first || frame > lift.of.last) continue;
     const double share = static_cast<double>(frame - lift.of.first + 1) / (lift.of.last - lift.of.first + 2);
     const Rigid low = lowest(lift.of.from, lift.of.to, share, planned);
-    return {slerp_short(low.q, planned.q, lift.size), low.p_m + lift.size * (planned.p_m - low.p_m)};
+    return part_way(low, planned, lift.size);
   }
   return planned;
 }

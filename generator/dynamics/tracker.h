@@ -25,8 +25,8 @@ FigureState moving_start(const Multibody& body, const TargetMotion& target, doub
 struct Tracking {
   bool root_leads =
       false;  // the root follows its own path closely, and legs follow it; otherwise it is tracked like joints
-  // The time since a recent impact, s; empty without one. After an impact, the stiffness of the root is limited, because
-  // the ground cannot move the root faster.
+  // The time since a recent impact, s; empty without one. After an impact, the stiffness of the root is limited,
+  // because the ground cannot move the root faster.
   std::optional<double> since_impact_s{};
   bool exactly = false;  // joints: with a correction of the cubics, so that a figure on the target stays on it exactly
 };

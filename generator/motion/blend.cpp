@@ -36,7 +36,7 @@ void weigh_part(const Character& character, std::size_t part, const Posture& a, 
                 out.coords.data() + joint.coord);
   }
   if (part != 0) return;
-  out.root = {slerp_short(a.root.q, b.root.q, weight), a.root.p_m + (b.root.p_m - a.root.p_m) * weight};
+  out.root = part_way(a.root, b.root, weight);
 }
 
 }  // namespace

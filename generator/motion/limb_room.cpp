@@ -143,11 +143,6 @@ bool LimbRoom::has_grip(int limb) const {
          });
 }
 
-// Between two places, for a share of the way.
-static Rigid part_way(const Rigid& from, const Rigid& to, double share) {
-  return share == 1.0 ? to : Rigid{slerp_short(from.q, to.q, share), from.p_m + share * (to.p_m - from.p_m)};
-}
-
 // Most bodies are where they were in the look before. Their solids are placed when they are first asked for. A body of
 // another limb of the same kind is on its way from where it was before this frame.
 void LimbRoom::begin_look(int limb, std::span<const Rigid> world, double twins) {

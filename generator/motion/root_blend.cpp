@@ -47,7 +47,7 @@ double lower_of(double bend, double leg_m) { return bend <= 0.0 ? bend * leg_m :
 Rigid blend_root(const LegsBelow& below, const Rigid& a, const Rigid& b, double weight) {
   if (weight <= 0.0) return a;
   if (weight >= 1.0) return b;
-  Rigid blended{slerp_short(a.q, b.q, weight), a.p_m + (b.p_m - a.p_m) * weight};
+  Rigid blended = part_way(a, b, weight);
   if (below.legs.empty()) return blended;
   const double leg_m = shortest_leg_m(below.legs);
   const double short_m = short_of_both_m(below, a, b);

@@ -73,8 +73,7 @@ bool StandingFeet::land(std::size_t leg, const Rigid& world_from_sole, LandingSt
   constexpr double kArrives_m = 2e-4, kArrives_rad = 2e-3;
   stood_[leg] = world_from_sole;
   const Rigid from = world_from_socket(*character_, world, legs_[leg].sole);
-  Rigid sole{slerp_short(from.q, world_from_sole.q, step.share),
-             from.p_m + step.share * (world_from_sole.p_m - from.p_m)};
+  Rigid sole = part_way(from, world_from_sole, step.share);
   sole.p_m.y += step.lift * std::max(0.0, -spare_m(leg, sole));
   put(leg, sole, world, row);
   const Rigid now = world_from_socket(*character_, world, legs_[leg].sole);

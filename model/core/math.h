@@ -74,6 +74,11 @@ inline double minimum_jerk(double u) { return u * u * u * (10.0 + u * (6.0 * u -
 // Spherical interpolation along the shorter arc; t in [0, 1].
 Quat slerp_short(const Quat& a, const Quat& b, double t);
 
+// The place at a share of the way between two places: along a straight line and the shorter arc.
+inline Rigid part_way(const Rigid& from, const Rigid& to, double share) {
+  return {slerp_short(from.q, to.q, share), from.p_m + share * (to.p_m - from.p_m)};
+}
+
 // Returns the nearest multiple of 1 / steps_per_unit. It divides, so that the result is the double with the shortest
 // text.
 inline double on_lattice(double value, double steps_per_unit) {

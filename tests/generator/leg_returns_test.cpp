@@ -137,8 +137,8 @@ TEST(TrunkOverFeet, GoesNoFartherFromPawsThatDoNotReach) {
   EXPECT_EQ(broken_in(stage), "");
 }
 
-// Both legs move in the same frame. Each one kept its distance from the place where the other leg had been, but 29 of 96
-// such pairs of hits put a foot through the other one, most of them between two frames.
+// Both legs move in the same frame. Each one kept its distance from the place where the other leg had been, but 29 of
+// 96 such pairs of hits put a foot through the other one, most of them between two frames.
 TEST(LegReturns, LegsThatAreHitTogetherDoNotPassThroughEachOther) {
   for (const double inward_deg : {-150.0, -110.0, -60.0, -30.0})
     for (const double other_deg : {30.0, 60.0, 110.0, 150.0})
